@@ -12,6 +12,8 @@ find_package(CLI11 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(VTK 9.1 REQUIRED COMPONENTS IOXML CommonDataModel CommonCore)
 find_package(Gmsh REQUIRED)
+# Another python3 may come first on PATH; the figures need Debian's, with numpy and matplotlib.
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python with numpy and matplotlib")
 find_package(Python3 COMPONENTS Interpreter)
 
 # xsimd's own CMake target links a library that Debian does not ship: use the header alone.
