@@ -1,0 +1,92 @@
+#pragma once
+// A pack: the same quantity of W neighbouring elements, in one SIMD register; and the exchange of (x, y) pairs between
+// node arrays and packs.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+namespace gneiss {
+
+using Pack = xsimd::batch<double>;
+inline constexpr std::size_t pack_width = Pack::size;
+
+/// Bytes that arrays loaded as packs are aligned to.
+inline constexpr std::size_t pack_alignment = Pack::arch_type::alignment() < 16 ? 16 : Pack::arch_type::alignment();
+
+/// n rounded up to whole packs.
+constexpr std::size_t padded(std::size_t n) { return (n + pack_width - 1) / pack_width * pack_width; }
+
+/// Gathers the pairs values[2 i], values[2 i + 1] for the W indices i into an x and a y pack.
+inline void gather_pairs(const double* values, const std::int32_t* index, Pack& x, Pack& y) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    // Even lanes in one register, odd lanes in the other: unpacking then restores the order.
+    const auto pair = [&](int lane) { return _mm_loadu_pd(values + 2 * static_cast<std::ptrdiff_t>(index[lane])); };
+    __m512d even = _mm512_castpd128_pd512(pair(0));
+    __m512d odd = _mm512_castpd128_pd512(pair(1));
+    even = _mm512_insertf64x2(even, pair(2), 1);
+    odd = _mm512_insertf64x2(odd, pair(3), 1);
+    even = _mm512_insertf64x2(even, pair(4), 2);
+    odd = _mm512_insertf64x2(odd, pair(5), 2);
+    even = _mm512_insertf64x2(even, pair(6), 3);
+    odd = _mm512_insertf64x2(odd, pair(7), 3);
+    x = Pack(_mm512_unpacklo_pd(even, odd));
+    y = Pack(_mm512_unpackhi_pd(even, odd));
+#elif defined(__AVX2__)
+    const auto pair = [&](int lane) { return _mm_loadu_pd(values + 2 * static_cast<std::ptrdiff_t>(index[lane])); };
+    const __m256d even = _mm256_insertf128_pd(_mm256_castpd128_pd256(pair(0)), pair(2), 1);
+    const __m256d odd = _mm256_insertf128_pd(_mm256_castpd128_pd256(pair(1)), pair(3), 1);
+    x = Pack(_mm256_unpacklo_pd(even, odd));
+    y = Pack(_mm256_unpackhi_pd(even, odd));
+#else
+    alignas(pack_alignment) std::array<double, pack_width> xs, ys;
+    for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        xs[lane] = values[2 * static_cast<std::ptrdiff_t>(index[lane])];
+        ys[lane] = values[2 * static_cast<std::ptrdiff_t>(index[lane]) + 1];
+    }
+    x = Pack::load_aligned(xs.data());
+    y = Pack::load_aligned(ys.data());
+#endif
+}
+
+/// Adds the W pairs (x, y) to values[2 i], values[2 i + 1], lane after lane: an index may occur more than once.
+inline void scatter_add_pairs(double* values, const std::int32_t* index, const Pack& x, const Pack& y) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    const auto add = [&](int lane, __m128d pair) {
+        double* target = values + 2 * static_cast<std::ptrdiff_t>(index[lane]);
+        _mm_storeu_pd(target, _mm_add_pd(_mm_loadu_pd(target), pair));
+    };
+    const __m512d even = _mm512_unpacklo_pd(x, y);
+    const __m512d odd = _mm512_unpackhi_pd(x, y);
+    add(0, _mm512_castpd512_pd128(even));
+    add(1, _mm512_castpd512_pd128(odd));
+    add(2, _mm512_extractf64x2_pd(even, 1));
+    add(3, _mm512_extractf64x2_pd(odd, 1));
+    add(4, _mm512_extractf64x2_pd(even, 2));
+    add(5, _mm512_extractf64x2_pd(odd, 2));
+    add(6, _mm512_extractf64x2_pd(even, 3));
+    add(7, _mm512_extractf64x2_pd(odd, 3));
+#elif defined(__AVX2__)
+    const auto add = [&](int lane, __m128d pair) {
+        double* target = values + 2 * static_cast<std::ptrdiff_t>(index[lane]);
+        _mm_storeu_pd(target, _mm_add_pd(_mm_loadu_pd(target), pair));
+    };
+    const __m256d even = _mm256_unpacklo_pd(x, y);
+    const __m256d odd = _mm256_unpackhi_pd(x, y);
+    add(0, _mm256_castpd256_pd128(even));
+    add(1, _mm256_castpd256_pd128(odd));
+    add(2, _mm256_extractf128_pd(even, 1));
+    add(3, _mm256_extractf128_pd(odd, 1));
+#else
+    alignas(pack_alignment) std::array<double, pack_width> xs, ys;
+    x.store_aligned(xs.data());
+    y.store_aligned(ys.data());
+    for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        values[2 * static_cast<std::ptrdiff_t>(index[lane])] += xs[lane];
+        values[2 * static_cast<std::ptrdiff_t>(index[lane]) + 1] += ys[lane];
+    }
+#endif
+}
+
+}  // namespace gneiss

@@ -1,0 +1,35 @@
+#pragma once
+// What happens at an instant: load switches now; joint failure, contact search and node splitting use the same words.
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "system/state.hpp"
+
+namespace gneiss {
+
+/// What an event leaves for the integrator to do.
+enum class EventOutcome {
+    none,          ///< carry on
+    reinitialise,  ///< forces have jumped: start anew from this state
+    resize         ///< the number of unknowns has changed as well
+};
+
+class Event {
+public:
+    virtual ~Event() = default;
+    virtual std::string name() const = 0;
+
+    /// The next instant known beforehand, later than state.last_event; steps end there exactly.
+    virtual std::optional<double> next_time(const State& state) const = 0;
+
+    /// Functions whose zero crossing is the event, for root finding.
+    virtual std::size_t n_indicators() const { return 0; }
+    virtual void indicators(const State&, std::span<double>) const {}
+
+    /// Changes the accepted state: the only place where topology may change.
+    virtual EventOutcome apply(State& accepted) = 0;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,55 @@
+#pragma once
+// A time integrator: it sees a semi-discrete system and its state, never an element, a material or a contact pair.
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "system/semi_discrete.hpp"
+
+namespace gneiss {
+
+/// Why an integrator (re)starts.
+enum class StartReason {
+    fresh,         ///< a new run
+    reinitialise,  ///< forces have jumped
+    resize         ///< the number of unknowns has changed
+};
+
+/// What one accepted step was.
+struct StepReport {
+    double t = 0;                 ///< time reached, s
+    double dt = 0;                ///< s
+    std::size_t n_rejected = 0;   ///< trials thrown away before this one
+    std::size_t n_force = 0;      ///< force evaluations
+};
+
+/// An integrator's own memory, by name: saved in checkpoints beside the state.
+using IntegratorMemory = std::map<std::string, std::vector<double>>;
+
+class Integrator {
+public:
+    virtual ~Integrator() = default;
+    virtual std::string name() const = 0;
+
+    /// Takes the system and an accepted state. Also called after an event that asks for it.
+    virtual void start(const SemiDiscrete& system, State& state, StartReason why) = 0;
+
+    /// One accepted step, that does not pass t_stop.
+    /// @throws RecoverableError if the step failed; the state is then still the last accepted one
+    virtual StepReport advance(const SemiDiscrete& system, State& state, double t_stop) = 0;
+
+    /// Kinetic energy in the measure in which this integrator's balance is sharpest, J.
+    virtual double kinetic_energy(const SemiDiscrete& system, const State& state) const = 0;
+    /// Forces of supports on the constrained degrees of freedom at the last accepted state, N, shape (constraints).
+    virtual std::span<const double> reactions() const = 0;
+
+    /// load() takes the place of start() when a run goes on from a checkpoint: the run then has the same bits as one
+    /// that was never interrupted.
+    virtual IntegratorMemory save() const = 0;
+    virtual void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) = 0;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,108 @@
+#pragma once
+// M a + C v = f(t, u, v, z),  z' = g(t, u, v, z)   [FORMULATION 1; Lei et al. 2016, (1)]:
+// everything a time integrator, a static solver or a cross-check may know of a solid.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "system/event.hpp"
+#include "system/state.hpp"
+#include "system/tangent.hpp"
+
+namespace gneiss {
+
+/// Sizes of a system.
+struct Layout {
+    std::size_t n_dof = 0;       ///< displacements: 2 per node
+    std::size_t n_internal = 0;  ///< z
+    std::size_t n_history = 0;
+};
+
+/// The velocity-proportional forces that are linear and local to a node, C v.
+struct Damping {
+    /// A symmetric 2 x 2 matrix of one node, N s/m.
+    struct Block {
+        std::int32_t node;
+        double xx, xy, yy;
+    };
+    double mass_proportional = 0;  ///< c in C = c M, 1/s
+    std::vector<Block> blocks;     ///< absorbing boundaries, at most one per node, ascending
+};
+
+/// A degree of freedom whose motion is prescribed.
+struct Constraint {
+    enum class Kind { displacement, velocity };
+    std::size_t dof;  ///< 2 node + component
+    Kind kind;
+};
+
+/// Energies that are functions of the state, J.
+struct StoredEnergies {
+    double material = 0;      ///< of laws that have a stored energy
+    double stress_power = 0;  ///< accumulated stress power of laws that have none
+    double contact = 0;
+    double joints = 0;
+
+    double sum() const { return material + stress_power + contact + joints; }
+};
+
+/// What limits an explicit step.
+struct FrequencyBound {
+    double omega = 0;         ///< upper bound of the natural frequencies, rad/s
+    double damping_rate = 0;  ///< upper bound of the eigenvalues of M^-1 (-df/dv), 1/s: viscous stress, not C
+};
+
+class SemiDiscrete {
+public:
+    virtual ~SemiDiscrete() = default;
+
+    virtual Layout layout() const = 0;
+    /// At rest at t = 0 with the initial velocities and internal variables.
+    virtual State initial_state() const = 0;
+
+    /// Diagonal of M, kg, shape (n_dof): a node's mass stands at both of its components. All > 0.
+    virtual std::span<const double> lumped_mass() const = 0;
+    virtual const Damping& damping() const = 0;
+
+    /// Prescribed motion, by ascending degree of freedom; its values are displacements (m) or velocities (m/s).
+    virtual std::span<const Constraint> constraints() const = 0;
+    /// @param[out] values  shape (constraints)
+    virtual void constraint_values(double t, double last_event, std::span<double> values) const = 0;
+
+    /// True if f depends on v (viscous stress, damping in contact): C v does not count.
+    virtual bool force_depends_on_velocity() const = 0;
+
+    /// f(t, u, v, z), N. Pure: the accepted state is read only.
+    /// @param[out] f  overwritten, shape (n_dof); external, material and contact forces, without C v
+    /// @throws RecoverableError if an element is inverted in the trial state
+    virtual void force(const State& accepted, const Trial& trial, std::span<double> f) const = 0;
+
+    /// force() together with the internal variables and the history that accepting the trial would leave.
+    /// @param[out] z, history  overwritten, shapes (n_internal), (n_history); not the accepted state's own vectors
+    virtual void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                                  std::span<double> history) const = 0;
+
+    /// z' = g(t, u, v, z) at the trial's own z.
+    /// @param[out] rate  overwritten, shape (n_internal)
+    virtual void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const = 0;
+
+    /// Exact tangents, or nullptr where a system has none.
+    virtual const Tangent* tangent() const { return nullptr; }
+
+    /// From the tangents in the accepted state.
+    virtual FrequencyBound frequency_bound(const State& accepted) const = 0;
+
+    virtual StoredEnergies stored_energies(const State& state) const = 0;
+    /// Adds to to.path what the step between two accepted states adds: the work of loads and the dissipation of
+    /// viscous stress and absorbing boundaries, by the trapezoidal rule along the step.
+    virtual void add_path_energies(const State& from, State& to) const = 0;
+
+    virtual std::span<const std::unique_ptr<Event>> events() const = 0;
+};
+
+}  // namespace gneiss
