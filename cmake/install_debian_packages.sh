@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that gneiss is built with. Does nothing, in a fraction of a second, where all of them
+# are present. studies/run.sh and tests/run.sh call it first.
+#
+# usage: cmake/install_debian_packages.sh [--list]
+#   --list   print the package names, one per line, and stop
+#
+# exit status: 0 all present, 1 they could not be installed, 2 wrong use
+set -euo pipefail
+
+# What a find_package, an include or a script of this repository asks for, and nothing else: a bare machine waits for
+# every further one. deal.II (1.3 GB, for the cross-check), SUNDIALS and SuiteSparse (0.3 GB, for the implicit
+# integrators) join this list together with the code that uses them.
+packages=(
+    ca-certificates git
+    g++ cmake ninja-build ccache                   # compiler with OpenMP, build
+    libeigen3-dev libxsimd-dev                     # linear algebra, packs
+    libgmsh-dev                                    # meshes
+    libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
+    libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
+    libgtest-dev libgmock-dev libbenchmark-dev     # tests, benchmarks
+    python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
+)
+
+say() { printf 'packages: %s\n' "$*"; }
+fail() { printf 'packages: error: %s\n' "$*" >&2; exit 1; }
+
+if [[ $# -gt 1 || ( $# -eq 1 && $1 != --list ) ]]; then
+    echo "usage: ${0##*/} [--list]" >&2
+    exit 2
+fi
+if [[ ${1-} == --list ]]; then
+    printf '%s\n' "${packages[@]}"
+    exit 0
+fi
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    fail "this system has no apt. gneiss is developed on Debian 12; elsewhere install what these packages
+provide, then configure with CMake yourself (CONTRIBUTING.md): ${packages[*]}"
+fi
+
+# Prints the packages of the list that are not installed. dpkg-query fails as soon as it knows nothing of one name,
+# which is no error here: what it does print is complete.
+missing_packages() {
+    local present
+    present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null \
+        | sed -n 's/^installed //p' || true)
+    comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(sort -u <<<"$present")
+}
+
+mapfile -t missing < <(missing_packages)
+if [[ ${#missing[@]} -eq 0 ]]; then
+    say "all ${#packages[@]} are installed"
+    exit 0
+fi
+say "${#missing[@]} of ${#packages[@]} are missing: ${missing[*]}"
+
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null || fail "neither root nor sudo. As root, run: apt-get update && apt-get install \
+--no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+    # Nobody can type a password into a job without a terminal: fail with sudo's own message instead of waiting.
+    [[ -t 0 ]] || as_root+=(-n)
+fi
+
+log=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX.log")
+
+# apt in its own voice goes to the log. Of its status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...",
+# one in every tenth of the way is shown.
+show_progress() {
+    awk -F: -v log_file="$log" '
+        /^(dl|pm)status:/ {
+            what = $1 == "dlstatus" ? "downloaded" : "installed"
+            tenth = int($3 / 10)
+            if (!(what in shown) || tenth > shown[what]) {
+                shown[what] = tenth
+                printf "packages:   %s %3d %%\n", what, tenth * 10
+                fflush()
+            }
+            next
+        }
+        { print > log_file; fflush(log_file) }'
+}
+
+apt() {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y \
+        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=1 "$@" </dev/null 2>&1 | show_progress
+}
+
+apt_failed() {
+    tail -n 15 "$log" >&2
+    fail "$1; the whole log is in $log"
+}
+
+say "fetching the package lists (apt-get update)"
+apt update || apt_failed "apt-get update failed"
+
+unknown=()
+for package in "${missing[@]}"; do
+    apt-cache show --no-all-versions "$package" >/dev/null 2>&1 || unknown+=("$package")
+done
+[[ ${#unknown[@]} -eq 0 ]] || fail "this system's archive has no ${unknown[*]}; gneiss is developed on Debian 12"
+
+say "installing (apt-get install --no-install-recommends); on a bare machine about 0.7 GB to fetch, several minutes"
+apt install --no-install-recommends "${missing[@]}" || apt_failed "apt-get install failed"
+
+mapfile -t missing < <(missing_packages)
+[[ ${#missing[@]} -eq 0 ]] || apt_failed "still missing: ${missing[*]}"
+rm -f "$log"
+say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s"
