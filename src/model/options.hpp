@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "materials/elastic_constants.hpp"
+
 namespace gneiss {
 
 /// A number, or an expression that muParser evaluates. Which variables it may use is stated at each member.
@@ -60,12 +62,6 @@ struct SolidOptions {
     Plane plane = Plane::strain;
     double thickness = 1;                    ///< m, > 0
     Volumetric volumetric = Volumetric::mean;
-};
-
-/// Munjiza elastic constants, Pa [Lei et al. 2016, (14)].
-struct MunjizaConstants {
-    double M_v = 0, M_alpha = 0, M_beta = 0, M_psi = 0;
-    friend bool operator==(const MunjizaConstants&, const MunjizaConstants&) = default;
 };
 
 /// Direction of the material axis alpha in the reference shape; beta is alpha turned by +90 degrees.
