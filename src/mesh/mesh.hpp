@@ -31,16 +31,19 @@ struct Mesh {
     std::vector<std::string> region_names;
 
     std::map<std::string, std::vector<BoundaryEdge>> boundaries;  ///< edges by name, in walking order where they chain
-    std::map<std::string, std::vector<std::int32_t>> node_sets;   ///< nodes by name, ascending; every boundary has its own
-    std::map<std::string, std::vector<double>> element_data;      ///< numbers per element read from the mesh file
+    std::map<std::string, std::vector<std::int32_t>>
+        node_sets;                                            ///< nodes by name, ascending; every boundary has its own
+    std::map<std::string, std::vector<double>> element_data;  ///< numbers per element read from the mesh file
 
     std::vector<std::int64_t> node_labels;     ///< what the file called each node; 1-based numbers for generated meshes
-    std::vector<std::int64_t> element_labels;  ///< likewise for elements
+    std::vector<std::int64_t> element_labels;  ///< likewise for elements; the CST of one composite share its label
 
     int nodes_per_element() const { return static_cast<int>(kind); }
     std::size_t n_nodes() const { return nodes.size(); }
     std::size_t n_elements() const { return connectivity.size() / static_cast<std::size_t>(kind); }
-    const std::int32_t* element(std::size_t e) const { return connectivity.data() + e * static_cast<std::size_t>(kind); }
+    const std::int32_t* element(std::size_t e) const {
+        return connectivity.data() + e * static_cast<std::size_t>(kind);
+    }
 };
 
 }  // namespace gneiss

@@ -3,7 +3,6 @@
 // them by hand. No behaviour here beyond validation of ranges. SI units, angles in radians.
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,32 +27,6 @@ enum class Volumetric { mean, centre };  ///< where COMPT takes its volumetric s
 enum class StressMap { conjugate, direct };  ///< FORMULATION 3
 enum class LawKind { munjiza, neo_hookean };
 enum class Form { hyper, hypo };
-
-// ---- mesh -----------------------------------------------------------------------------------------------------------
-
-struct MeshOptions {
-    enum class Source { file, rectangle, plate_with_hole };
-    enum class Pattern { uniform_right, uniform_left, alternating, crossed };  ///< diagonals of the rectangle's cells
-    enum class Layout { free, structured };
-
-    Source source = Source::rectangle;
-    std::string file;                        ///< .msh (4.1) or .geo; relative to the deck's folder
-    std::map<std::string, double> parameters;  ///< numbers defined in the .geo before it is read
-
-    double width = 1, height = 1;            ///< rectangle, m, > 0
-    std::array<double, 2> origin{0, 0};      ///< lower left corner, m
-    std::array<int, 2> cells{1, 1};          ///< composite cells along x and y, >= 1
-    Pattern pattern = Pattern::uniform_right;  ///< uniform_right: diagonals rise to the right
-
-    double side = 0;                         ///< plate with hole: side of the square block, m, > 2 radius
-    double radius = 0;                       ///< radius of the hole at the centre, m, > 0
-    std::array<double, 2> size{0, 0};        ///< edge length of a composite at the hole and at the outer boundary, m, > 0;
-                                             ///< a composite's sub-edges are half of it
-    Layout layout = Layout::free;
-    int seed = 0;                            ///< moves the first point of the hole's division, so that free meshes differ
-
-    bool curved = true;                      ///< mid-side nodes on a curved boundary follow it; false: all sides straight
-};
 
 // ---- solid and materials --------------------------------------------------------------------------------------------
 

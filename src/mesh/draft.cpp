@@ -1,0 +1,73 @@
+#include "mesh/draft.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "mesh/composite.hpp"
+#include "mesh/geometry.hpp"
+
+namespace gneiss {
+namespace {
+
+std::uint64_t side_key(std::int32_t a, std::int32_t b) {
+    const auto [low, high] = std::minmax(a, b);
+    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
+}
+
+std::int64_t next_label(const std::vector<std::int64_t>& labels) {
+    return labels.empty() ? 1 : *std::max_element(labels.begin(), labels.end()) + 1;
+}
+
+}  // namespace
+
+std::int32_t MeshDraft::add_node(double x, double y) {
+    nodes.push_back({x, y});
+    node_labels.push_back(node_labels.empty() ? 1 : node_labels.back() + 1);
+    return static_cast<std::int32_t>(nodes.size() - 1);
+}
+
+void MeshDraft::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
+    elements.push_back({a, no_node, b, no_node, c, no_node});
+    element_labels.push_back(element_labels.empty() ? 1 : element_labels.back() + 1);
+    region.push_back(0);
+}
+
+void add_mid_sides(MeshDraft& draft) {
+    std::unordered_map<std::uint64_t, std::int32_t> mid_of_side;
+    mid_of_side.reserve(draft.elements.size() * 2);
+    for (const auto& element : draft.elements)
+        for (const auto& [from, mid, to] : composite_sides)
+            if (element[mid] != MeshDraft::no_node)
+                mid_of_side.emplace(side_key(element[from], element[to]), element[mid]);
+
+    std::int64_t label = next_label(draft.node_labels);
+    const auto fill = [&](std::int32_t a, std::int32_t& mid, std::int32_t b) {
+        if (mid != MeshDraft::no_node) return;
+        const auto [entry, is_new] = mid_of_side.emplace(side_key(a, b), static_cast<std::int32_t>(draft.nodes.size()));
+        if (is_new) {
+            draft.nodes.push_back(midpoint(draft.nodes[a], draft.nodes[b]));
+            draft.node_labels.push_back(label++);
+        }
+        mid = entry->second;
+    };
+    for (auto& element : draft.elements)
+        for (const auto& [from, mid, to] : composite_sides) fill(element[from], element[mid], element[to]);
+    for (auto& [name, sides] : draft.lines)
+        for (auto& [from, mid, to] : sides) fill(from, mid, to);
+}
+
+void straighten_sides(MeshDraft& draft) {
+    for (const auto& element : draft.elements)
+        for (const auto& [from, mid, to] : composite_sides)
+            draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
+}
+
+void orient(MeshDraft& draft) {
+    const auto clockwise = [&](const std::array<std::int32_t, 6>& element) {
+        return triangle_area(draft.nodes[element[0]], draft.nodes[element[2]], draft.nodes[element[4]]) < 0;
+    };
+    if (!std::all_of(draft.elements.begin(), draft.elements.end(), clockwise)) return;
+    for (auto& element : draft.elements) std::reverse(element.begin() + 1, element.end());
+}
+
+}  // namespace gneiss

@@ -1,0 +1,139 @@
+#include "mesh/make_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/check.hpp"
+#include "mesh/composite.hpp"
+#include "mesh/generators.hpp"
+#include "mesh/gmsh_reader.hpp"
+
+namespace gneiss {
+namespace {
+
+using NodePair = std::pair<std::int32_t, std::int32_t>;
+
+MeshDraft draft_of(const MeshOptions& options, const std::filesystem::path& base_dir) {
+    switch (options.source) {
+        case MeshOptions::Source::file:
+            return read_gmsh(base_dir / options.file, options.parameters);
+        case MeshOptions::Source::rectangle:
+            return rectangle(options);
+        case MeshOptions::Source::plate_with_hole:
+            break;
+    }
+    return options.layout == MeshOptions::Layout::structured ? structured_plate_with_hole(options)
+                                                             : free_plate_with_hole(options);
+}
+
+/// The contour edges along a line, with their element and the solid on the left.
+std::vector<BoundaryEdge> edges_along(const std::vector<std::array<std::int32_t, 3>>& line,
+                                      const std::map<NodePair, BoundaryEdge>& contour_edges) {
+    std::map<NodePair, BoundaryEdge> found;  // a side that the line names twice counts once
+    for (const auto& [from, mid, to] : line)
+        for (const NodePair& ends : {NodePair(std::minmax(from, mid)), NodePair(std::minmax(mid, to))})
+            if (const auto edge = contour_edges.find(ends); edge != contour_edges.end()) found.insert(*edge);
+    std::vector<BoundaryEdge> edges;
+    for (const auto& [ends, edge] : found) edges.push_back(edge);
+    return in_walking_order(edges);
+}
+
+std::vector<std::int32_t> ascending(std::vector<std::int32_t> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+void name_boundaries(Mesh& mesh, const MeshDraft& draft, MeshReport& report) {
+    const std::vector<BoundaryEdge> whole = contour(mesh);
+    std::map<NodePair, BoundaryEdge> contour_edges;
+    for (const BoundaryEdge& edge : whole) contour_edges.emplace(NodePair(std::minmax(edge.a, edge.b)), edge);
+    for (const auto& [name, line] : draft.lines) {
+        std::vector<std::int32_t> nodes;
+        for (const auto& side : line) nodes.insert(nodes.end(), side.begin(), side.end());
+        mesh.node_sets[name] = ascending(std::move(nodes));
+        const std::vector<BoundaryEdge> edges = edges_along(line, contour_edges);
+        if (!edges.empty()) mesh.boundaries[name] = edges;
+        if (nodes_of(edges).size() < mesh.node_sets[name].size())
+            report.warnings.push_back(
+                fmt::format("curve \"{}\" runs inside the solid{}: it can hold nodes there, but no traction", name,
+                            edges.empty() ? "" : " in part"));
+    }
+    for (const auto& [name, nodes] : draft.points) mesh.node_sets[name] = ascending(nodes);
+    if (mesh.node_sets.count("boundary") == 0) {
+        mesh.boundaries["boundary"] = whole;
+        mesh.node_sets["boundary"] = nodes_of(whole);
+    }
+}
+
+}  // namespace
+
+Mesh make_mesh(const MeshOptions& options, bool compt, const std::filesystem::path& base_dir, MeshReport* report) {
+    if (std::vector<Problem> problems = validate(options); !problems.empty()) throw InputError(std::move(problems));
+    MeshDraft draft = draft_of(options, base_dir);
+    if (!options.curved) straighten_sides(draft);
+    MeshReport own;
+    return finish(std::move(draft), compt, report ? *report : own);
+}
+
+Mesh finish(MeshDraft draft, bool compt, MeshReport& report) {
+    report.warnings.insert(report.warnings.end(), draft.warnings.begin(), draft.warnings.end());
+    orient(draft);
+    if (std::vector<Problem> problems = check(draft, report.warnings); !problems.empty())
+        throw InputError(std::move(problems));
+    renumber(draft);
+
+    Mesh mesh;
+    mesh.kind = ElementKind::compt;
+    mesh.nodes = std::move(draft.nodes);
+    mesh.node_labels = std::move(draft.node_labels);
+    mesh.connectivity.reserve(composite_nodes * draft.elements.size());
+    for (const auto& element : draft.elements)
+        mesh.connectivity.insert(mesh.connectivity.end(), element.begin(), element.end());
+    mesh.element_labels = std::move(draft.element_labels);
+    mesh.region = std::move(draft.region);
+    mesh.region_names = std::move(draft.region_names);
+    mesh.element_data = std::move(draft.element_data);
+    name_boundaries(mesh, draft, report);
+    return compt ? mesh : split_composites(mesh);
+}
+
+Mesh split_composites(const Mesh& composites) {
+    Mesh mesh = composites;
+    mesh.kind = ElementKind::cst;
+    mesh.connectivity.clear();
+    mesh.connectivity.reserve(composites.n_elements() * 3 * sub_triangles_per_composite);
+    for (std::size_t e = 0; e < composites.n_elements(); ++e)
+        for (const SubTriangle& abc : composite_sub_triangles)
+            for (int i : counter_clockwise(abc)) mesh.connectivity.push_back(composites.element(e)[i]);
+
+    const auto repeat = [](auto& values) {
+        auto repeated = values;
+        repeated.clear();
+        repeated.reserve(values.size() * sub_triangles_per_composite);
+        for (const auto& value : values) repeated.insert(repeated.end(), sub_triangles_per_composite, value);
+        values = std::move(repeated);
+    };
+    repeat(mesh.region);
+    repeat(mesh.element_labels);
+    for (auto& [name, values] : mesh.element_data) repeat(values);
+
+    for (auto& [name, edges] : mesh.boundaries)
+        for (BoundaryEdge& edge : edges)
+            for (int sub = 0; sub < sub_triangles_per_composite; ++sub) {
+                const std::int32_t cst = sub_triangles_per_composite * edge.element + sub;
+                const std::int32_t* nodes = mesh.element(static_cast<std::size_t>(cst));
+                const auto has = [&](std::int32_t node) { return std::find(nodes, nodes + 3, node) != nodes + 3; };
+                if (has(edge.a) && has(edge.b)) {
+                    edge.element = cst;
+                    break;
+                }
+            }
+    return mesh;
+}
+
+}  // namespace gneiss

@@ -1,0 +1,113 @@
+#include "mesh/mesh_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "mesh/generators.hpp"
+
+namespace gneiss {
+namespace {
+
+/// About 100 GB of element data: beyond it a size is a slip of the pen, and meshing would never come back.
+constexpr double max_composites = 1e8;
+
+void require_positive(std::vector<Problem>& problems, const char* key, double value) {
+    if (!(value > 0 && std::isfinite(value)))
+        problems.push_back({"mesh", fmt::format("{} = {} must be a finite length > 0 m", key, value)});
+}
+
+void validate_file(std::vector<Problem>& problems, const MeshOptions& options) {
+    if (options.file.empty()) {
+        problems.push_back({"mesh", "file is missing: name a .msh or a .geo file"});
+        return;
+    }
+    const std::string extension = std::filesystem::path(options.file).extension();
+    if (extension != ".msh" && extension != ".geo")
+        problems.push_back({"mesh", fmt::format("file = \"{}\" must end in .msh or .geo", options.file)});
+    if (extension == ".msh" && !options.parameters.empty())
+        problems.push_back({"mesh", "parameters belong to a .geo file; a .msh is read as it is"});
+    for (const auto& [name, value] : options.parameters)
+        if (!std::isfinite(value))
+            problems.push_back({"mesh", fmt::format("parameters.{} = {} must be finite", name, value)});
+}
+
+void validate_rectangle(std::vector<Problem>& problems, const MeshOptions& options) {
+    require_positive(problems, "width", options.width);
+    require_positive(problems, "height", options.height);
+    for (double x : options.origin)
+        if (!std::isfinite(x)) problems.push_back({"mesh", fmt::format("origin = {} must be finite", x)});
+    for (int n : options.cells)
+        if (n < 1) problems.push_back({"mesh", fmt::format("cells = {} must be >= 1", n)});
+}
+
+void validate_plate(std::vector<Problem>& problems, const MeshOptions& options) {
+    require_positive(problems, "side", options.side);
+    require_positive(problems, "radius", options.radius);
+    require_positive(problems, "size[0]", options.size[0]);
+    require_positive(problems, "size[1]", options.size[1]);
+    if (options.side > 0 && options.radius > 0 && !(options.side > 2 * options.radius))
+        problems.push_back({"mesh", fmt::format("side = {} m must exceed the diameter of the hole, 2 radius = {} m",
+                                                options.side, 2 * options.radius)});
+}
+
+/// Equilateral triangles of the local edge length fill the area between circle and square; midpoint rule over the
+/// radius.
+double composites_of_free_plate(const MeshOptions& options) {
+    constexpr int n_rings = 400;
+    const double outer = std::sqrt(options.side * options.side / std::numbers::pi);  // circle of the square's area
+    double n = 0;
+    for (int i = 0; i < n_rings; ++i) {
+        const double dr = (outer - options.radius) / n_rings;
+        const double r = options.radius + (i + 0.5) * dr;
+        const double h = plate_edge_length(options, r);
+        n += 2 * std::numbers::pi * r * dr / (std::sqrt(3.0) / 4 * h * h);
+    }
+    return n;
+}
+
+}  // namespace
+
+double expected_composites(const MeshOptions& options) {
+    switch (options.source) {
+        case MeshOptions::Source::rectangle: {
+            const double per_cell = options.pattern == MeshOptions::Pattern::crossed ? 4 : 2;
+            return per_cell * options.cells[0] * options.cells[1];
+        }
+        case MeshOptions::Source::plate_with_hole: {
+            if (options.layout == MeshOptions::Layout::free) return composites_of_free_plate(options);
+            const PlateDivision division = plate_division(options);
+            return 2 * division.around * division.rings;
+        }
+        case MeshOptions::Source::file:
+            break;
+    }
+    return 0;
+}
+
+std::vector<Problem> validate(const MeshOptions& options) {
+    std::vector<Problem> problems;
+    switch (options.source) {
+        case MeshOptions::Source::file:
+            validate_file(problems, options);
+            break;
+        case MeshOptions::Source::rectangle:
+            validate_rectangle(problems, options);
+            break;
+        case MeshOptions::Source::plate_with_hole:
+            validate_plate(problems, options);
+            break;
+    }
+    if (problems.empty()) {
+        const double n = expected_composites(options);
+        if (!(n <= max_composites))
+            problems.push_back({"mesh", fmt::format("these sizes ask for about {:.2g} composites; at most {:.0e} are "
+                                                    "allowed",
+                                                    n, max_composites)});
+    }
+    return problems;
+}
+
+}  // namespace gneiss

@@ -1,0 +1,46 @@
+#pragma once
+// How a mesh is described by the user.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+
+/// Where the mesh comes from: a file, or one of the built-in generators. SI units.
+struct MeshOptions {
+    enum class Source { file, rectangle, plate_with_hole };
+    enum class Pattern { uniform_right, uniform_left, alternating, crossed };  ///< diagonals of the rectangle's cells
+    enum class Layout { free, structured };
+
+    Source source = Source::rectangle;
+    std::string file;                          ///< .msh (4.1) or .geo; relative to the deck's folder
+    std::map<std::string, double> parameters;  ///< numbers defined in the .geo before it is read
+
+    double width = 1, height = 1;              ///< rectangle, m, > 0
+    std::array<double, 2> origin{0, 0};        ///< lower left corner, m
+    std::array<int, 2> cells{1, 1};            ///< composite cells along x and y, >= 1
+    Pattern pattern = Pattern::uniform_right;  ///< uniform_right: diagonals rise to the right
+
+    double side = 0;                   ///< plate with hole: side of the square block, m, > 2 radius
+    double radius = 0;                 ///< radius of the hole at the centre, m, > 0
+    std::array<double, 2> size{0, 0};  ///< edge length of a composite at the hole and at the outer boundary, m, > 0;
+                                       ///< a composite's sub-edges are half of it
+    Layout layout = Layout::free;      ///< structured has every symmetry of the square; free has none
+    int seed = 0;                      ///< moves the first point of the hole's division, so that free meshes differ
+
+    bool curved = true;  ///< mid-side nodes on a curved boundary follow it; false: all sides straight
+};
+
+/// Everything that is wrong with the options, ranges NaN-safe; empty if nothing is. Options that belong to another
+/// source are not looked at. The file itself is checked when it is read.
+std::vector<Problem> validate(const MeshOptions& options);
+
+/// Number of composites the generators will make: exact for the rectangle and the structured plate, an estimate from
+/// the area and the sizes for the free plate, 0 for a file. The options must be valid.
+double expected_composites(const MeshOptions& options);
+
+}  // namespace gneiss
