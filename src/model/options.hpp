@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "materials/elastic_constants.hpp"
+#include "mesh/mesh_options.hpp"
 
 namespace gneiss {
 
