@@ -10,7 +10,10 @@ struct Vec2 {
     friend Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
     friend Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
     friend Vec2 operator-(const Vec2& a) { return {-a.x, -a.y}; }
-    friend Vec2 operator*(const T& s, const Vec2& a) { return {s * a.x, s * a.y}; }
+    template <class S>
+    friend Vec2 operator*(const S& s, const Vec2& a) {
+        return {s * a.x, s * a.y};
+    }
     Vec2& operator+=(const Vec2& b) {
         x += b.x;
         y += b.y;

@@ -1,0 +1,208 @@
+#pragma once
+// From nodal displacements to nodal forces, for one element or for a pack of them  [FORMULATION 2 and 3].
+// Templates on the scalar: double for reference, Pack for speed, Dual for exact tangents.
+
+#include <array>
+#include <cstddef>
+
+#include "base/dual.hpp"
+#include "base/functions.hpp"
+#include "elements/composite_triangle.hpp"
+#include "elements/cst.hpp"
+#include "materials/point.hpp"
+#include "materials/viscous_stress.hpp"
+
+namespace gneiss {
+
+/// Where the volumetric stretch is taken.
+enum class Sampling {
+    mean,   ///< current area of the element over its initial area; of a CST its own
+    centre  ///< det F of the central sub-triangle (COMPT): the tangent is not symmetric
+};
+
+/// Geometry of the reference shape with the axes folded in.
+template <class Element, class V>
+struct TriangleGeometry {
+    /// K = Xbar^-1 [alpha beta] of one sub-triangle, Xbar = [x_a - x_b, x_c - x_b]: [H alpha, H beta] = [d_a, d_c] K with
+    /// the displacement differences d = u_a - u_b, u_c - u_b.
+    struct Sub {
+        V k_a_alpha, k_a_beta, k_c_alpha, k_c_beta;  ///< 1/m
+        V volume;                                    ///< thickness times initial area, m3
+    };
+
+    Vec2<V> axis;  ///< alpha
+    std::array<Sub, Element::n_sub> sub;
+    V inverse_volume;  ///< of the whole element, 1/m3
+};
+
+/// From node positions, m, shape (n_nodes), the unit vector alpha, and the thickness, m.
+template <class Element>
+TriangleGeometry<Element, double> triangle_geometry(const std::array<Vec2<double>, Element::n_nodes>& x,
+                                                    const Vec2<double>& axis, double thickness) {
+    TriangleGeometry<Element, double> geometry{};
+    geometry.axis = axis;
+    const Vec2<double> beta = turned(axis);
+    double volume = 0;
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const auto& [a, b, c] = Element::sub_triangles[s];
+        const Vec2<double> edge_a = x[a] - x[b], edge_c = x[c] - x[b];
+        const double determinant = cross(edge_a, edge_c);
+        geometry.sub[s] = {cross(axis, edge_c) / determinant, cross(beta, edge_c) / determinant,
+                           cross(edge_a, axis) / determinant, cross(edge_a, beta) / determinant,
+                           0.5 * thickness * determinant};
+        volume += geometry.sub[s].volume;
+    }
+    geometry.inverse_volume = 1 / volume;
+    return geometry;
+}
+
+template <class Element, class T>
+struct TriangleKinematics {
+    std::array<PointKinematics<T>, Element::n_sub> point;
+    T volume_strain;  ///< s_v - 1
+};
+
+/// [F' alpha, F' beta] or [H alpha, H beta] of sub-triangle s from nodal velocities or displacements.
+template <class Element, class T, class V>
+std::array<Vec2<T>, 2> axes_images(const std::array<Vec2<T>, Element::n_nodes>& u,
+                                   const TriangleGeometry<Element, V>& geometry, int s) {
+    const auto& [a, b, c] = Element::sub_triangles[s];
+    const auto& sub = geometry.sub[s];
+    const Vec2<T> d_a = u[a] - u[b], d_c = u[c] - u[b];
+    return {sub.k_a_alpha * d_a + sub.k_c_alpha * d_c, sub.k_a_beta * d_a + sub.k_c_beta * d_c};
+}
+
+template <class Element, Sampling sampling, class T, class V>
+TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Element::n_nodes>& u,
+                                                   const TriangleGeometry<Element, V>& geometry) {
+    TriangleKinematics<Element, T> kinematics{};
+    const Vec2<T> axis{T(geometry.axis.x), T(geometry.axis.y)};
+    T change(0.0);
+#pragma GCC unroll 4
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const auto [h_alpha, h_beta] = axes_images(u, geometry, s);
+        kinematics.point[s] = point_kinematics(axis, h_alpha, h_beta);
+        if constexpr (sampling == Sampling::mean && Element::n_sub > 1)
+            change += geometry.sub[s].volume * kinematics.point[s].area_strain;
+    }
+    if constexpr (Element::n_sub == 1) {
+        kinematics.volume_strain = kinematics.point[0].area_strain;
+    } else if constexpr (sampling == Sampling::mean) {
+        kinematics.volume_strain = geometry.inverse_volume * change;
+    } else {
+        kinematics.volume_strain = kinematics.point[Element::central].area_strain;
+    }
+    return kinematics;
+}
+
+/// Smallest det F of the sub-triangles, s_v included: not > 0 means inverted.
+template <class Element, class T>
+auto smallest_jacobian(const TriangleKinematics<Element, T>& kinematics) {
+    auto smallest = plain(kinematics.volume_strain);
+    for (const auto& point : kinematics.point) {
+        const auto& strain = plain(point.area_strain);
+        smallest = choose(strain < smallest, strain, smallest);
+        smallest = choose(strain == strain, smallest, strain);  // NaN stays
+    }
+    return smallest + 1.0;
+}
+
+/// Adds the nodal forces -V [P alpha, P beta] K^T of sub-triangle s.
+template <class Element, class T, class V>
+void subtract_stress(const Vec2<T>& p_alpha, const Vec2<T>& p_beta, const TriangleGeometry<Element, V>& geometry, int s,
+                     std::array<Vec2<T>, Element::n_nodes>& f) {
+    const auto& [a, b, c] = Element::sub_triangles[s];
+    const auto& sub = geometry.sub[s];
+    const Vec2<T> q_alpha = sub.volume * p_alpha, q_beta = sub.volume * p_beta;
+    const Vec2<T> g_a = sub.k_a_alpha * q_alpha + sub.k_a_beta * q_beta;
+    const Vec2<T> g_c = sub.k_c_alpha * q_alpha + sub.k_c_beta * q_beta;
+    f[a] = f[a] - g_a;
+    f[c] = f[c] - g_c;
+    f[b] += g_a + g_c;
+}
+
+/// What a law answers in one element.
+template <class Element, class Law, class T>
+struct TriangleStress {
+    typename Law::template Volume<T> volume;
+    std::array<PointStress<T>, Element::n_sub> point;
+    T q;  ///< average of the points' q by reference volume, Pa
+};
+
+template <class Law>
+concept TakesGivenStress = requires { &Law::template stress_at<double, double>; };
+
+/// @param given  false: stresses follow from u and the accepted memory; true: from the memory's z as it is
+template <class Element, bool given, class Law, class T, class V>
+TriangleStress<Element, Law, T> triangle_stress(
+    const Law& law, const TriangleKinematics<Element, T>& kinematics, const TriangleGeometry<Element, V>& geometry,
+    const std::array<typename Law::template Memory<V>, Element::n_sub>& memory) {
+    TriangleStress<Element, Law, T> stress{};
+    stress.volume = law.volume(kinematics.volume_strain);
+    T sum(0.0);
+#pragma GCC unroll 4
+    for (int s = 0; s < Element::n_sub; ++s) {
+        if constexpr (given && TakesGivenStress<Law>)
+            stress.point[s] = law.stress_at(kinematics.point[s], stress.volume, memory[s]);
+        else
+            stress.point[s] = law.stress(kinematics.point[s], stress.volume, memory[s]);
+        if constexpr (!Law::uniform_q && Element::n_sub > 1) sum += geometry.sub[s].volume * stress.point[s].q;
+    }
+    if constexpr (Law::uniform_q || Element::n_sub == 1)
+        stress.q = stress.point[0].q;
+    else
+        stress.q = geometry.inverse_volume * sum;
+    return stress;
+}
+
+/// Nodal forces of one element, the negative gradient of its energy where the law has one.
+/// @param[out] f  overwritten, N, shape (n_nodes, 2)
+template <class Element, class Law, class T, class V>
+void triangle_force(const TriangleKinematics<Element, T>& kinematics, const TriangleGeometry<Element, V>& geometry,
+                    const TriangleStress<Element, Law, T>& stress, std::array<Vec2<T>, Element::n_nodes>& f) {
+    f.fill({T(0.0), T(0.0)});
+#pragma GCC unroll 4
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const PointKinematics<T>& point = kinematics.point[s];
+        subtract_stress(stress.point[s].p_alpha + stress.q * cofactor_alpha(point),
+                        stress.point[s].p_beta + stress.q * cofactor_beta(point), geometry, s, f);
+    }
+}
+
+/// Rates of the sub-triangles from nodal velocities, m/s; T may be a dual over the velocities where K is plain.
+template <class Element, Sampling sampling, class T, class K, class V>
+std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T>, Element::n_nodes>& v,
+                                                         const TriangleKinematics<Element, K>& kinematics,
+                                                         const TriangleGeometry<Element, V>& geometry) {
+    std::array<PointRates<T>, Element::n_sub> rates{};
+    const K inverse_s_v = K(1.0) / (K(1.0) + kinematics.volume_strain);
+    T mean(0.0), centre(0.0);
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const auto [alpha, beta] = axes_images(v, geometry, s);
+        rates[s].alpha = alpha;
+        rates[s].beta = beta;
+        const Vec2<K> c_alpha = cofactor_alpha(kinematics.point[s]), c_beta = cofactor_beta(kinematics.point[s]);
+        const T area_rate = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
+        mean += geometry.sub[s].volume * area_rate;
+        if (s == Element::n_sub - 1) centre = area_rate;  // the central sub-triangle is the last
+    }
+    const T change = sampling == Sampling::mean ? T(geometry.inverse_volume * mean) : centre;
+    for (auto& rate : rates) rate.volume = inverse_s_v * change;
+    return rates;
+}
+
+/// Adds the nodal forces of the viscous stress, N; returns the power it dissipates, W.
+template <class Element, class T, class K, class V>
+T add_viscous_force(const ViscousStress& viscosity, const TriangleKinematics<Element, K>& kinematics,
+                    const std::array<PointRates<T>, Element::n_sub>& rates, const TriangleGeometry<Element, V>& geometry,
+                    std::array<Vec2<T>, Element::n_nodes>& f) {
+    T power(0.0);
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const PointStress<T> stress = viscosity.stress(kinematics.point[s], rates[s]);
+        subtract_stress(stress.p_alpha, stress.p_beta, geometry, s, f);
+        power += geometry.sub[s].volume * (dot(stress.p_alpha, rates[s].alpha) + dot(stress.p_beta, rates[s].beta));
+    }
+    return power;
+}
+
+}  // namespace gneiss
