@@ -66,11 +66,12 @@ fi
 
 log=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX.log")
 
-# apt in its own voice goes to the log. Of its status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...",
-# one in every tenth of the way is shown.
+# What apt says goes to the log. Of its status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...", one in every
+# tenth of the way is shown; those of the package lists, which count nothing useful, are not.
 show_progress() {
-    awk -F: -v log_file="$log" '
+    awk -F: -v log_file="$log" -v quiet="$1" '
         /^(dl|pm)status:/ {
+            if (quiet) next
             what = $1 == "dlstatus" ? "downloaded" : "installed"
             tenth = int($3 / 10)
             if (!(what in shown) || tenth > shown[what]) {
@@ -85,7 +86,8 @@ show_progress() {
 
 apt() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y \
-        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=1 "$@" </dev/null 2>&1 | show_progress
+        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=1 "$@" </dev/null 2>&1 \
+        | show_progress "$([[ $1 == update ]] && echo 1 || echo 0)"
 }
 
 apt_failed() {

@@ -60,7 +60,7 @@ ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --output-junit "
     || ctest_status=$?
 took
 
-[[ -s $report ]] || fail "ctest left no report (exit status $ctest_status)"
+[[ -s $report ]] || fail "no test ran (ctest's exit status: $ctest_status)"
 counts=$(/usr/bin/python3 - "$report" <<'PYTHON'
 import sys
 import xml.etree.ElementTree as xml
