@@ -12,18 +12,21 @@ import sys
 from pathlib import Path
 
 # Folder of a layer -> what its files may include besides themselves: whole layers, or single headers.
-# A folder that is not named here (tests, studies) may include everything.
+# Every folder of src/ is named here; tests may include everything.
+POINT = ["materials/point.hpp", "materials/viscous_stress.hpp"]  # what passes between an element and a law
+OPTIONS = ["src/mesh/mesh_options.hpp", "src/model/options.hpp"]  # plain structs that a deck is read into
 MAY_INCLUDE = {
     "src/base": [],
     "src/system": ["src/base"],
     "materials": ["src/base"],
-    "elements": ["src/base", "src/mesh/composite.hpp"],
-    "src/mesh": ["src/base", "src/model/options.hpp"],
+    "elements": ["src/base", "src/mesh/composite.hpp", *POINT],
+    "src/mesh": ["src/base"],
     "src/model": ["src/base", "src/system", "materials", "elements", "src/mesh"],
     "src/contact": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model"],
     "src/fracture": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model"],
     "integrators": ["src/base", "src/system"],
-    "src/io": ["src/base", "src/system", "src/mesh", "src/model"],
+    "src/io/deck": ["src/base", "materials/elastic_constants.hpp", "src/model/formula.hpp", *OPTIONS],
+    "src/io/output": ["src/base"],
     "src/app": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model", "src/contact",
                 "src/fracture", "integrators", "src/io"],
 }
@@ -89,7 +92,10 @@ def check_includes(root, files):
     findings = []
     for path in files:
         layer = layer_of(path)
-        if layer is None or path.suffix not in (".cpp", ".hpp"):
+        if path.suffix not in (".cpp", ".hpp") or path.parts[0] == "tests":
+            continue
+        if layer is None:
+            findings.append(f"{path}: belongs to no layer; give its folder a line in tests/check_includes.py")
             continue
         for number, line in enumerate((root / path).read_text(encoding="utf-8").splitlines(), start=1):
             match = INCLUDE.match(line)

@@ -14,8 +14,8 @@ SOUND = {
     "src/system/README.md": "",
     "src/system/state.hpp": '#include "base/errors.hpp"\n#include "generated_by_the_build.hpp"\n',
     "src/mesh/README.md": "",
-    "src/mesh/composite.hpp": '#include "model/options.hpp"\n',
-    "src/mesh/mesh.hpp": "",
+    "src/mesh/composite.hpp": "",
+    "src/mesh/mesh.hpp": '#include "mesh/composite.hpp"\n',
     "src/model/README.md": "",
     "src/model/options.hpp": "",
     "src/model/solid.hpp": '#include "elements/cst.hpp"\n#include "mesh/mesh.hpp"\n#include <gmsh.h>\n',
@@ -60,12 +60,14 @@ class StructureCheck(unittest.TestCase):
             ("src/system/a.hpp", "model/options.hpp"),
             ("elements/a.hpp", "mesh/mesh.hpp"),
             ("elements/a.hpp", "system/state.hpp"),
-            ("src/mesh/a.cpp", "model/solid.hpp"),
+            ("src/mesh/a.cpp", "model/options.hpp"),
             ("src/model/a.cpp", "io/deck/deck.hpp"),
             ("integrators/a.cpp", "elements/cst.hpp"),
             ("integrators/a.cpp", "model/options.hpp"),
             ("integrators/a.cpp", "mesh/composite.hpp"),
-            ("src/io/deck/a.cpp", "elements/cst.hpp"),
+            ("src/io/deck/a.cpp", "mesh/mesh.hpp"),
+            ("src/io/output/a.cpp", "model/options.hpp"),
+            ("src/mesh/a.cpp", "io/deck/deck.hpp"),
         ]:
             with self.subTest(path=path, target=target):
                 self.assert_only_finding({path: f'\n#include "{target}"\n'}, f"{path}:2:", target, "may not include")
@@ -76,6 +78,9 @@ class StructureCheck(unittest.TestCase):
     def test_include_that_is_no_path_from_the_root_is_found(self):
         self.assert_only_finding({"src/model/a.cpp": '#include "solid.hpp"\n'}, "src/model/a.cpp:1:", "solid.hpp")
         self.assert_only_finding({"src/model/a.cpp": '#include "model/gone.hpp"\n'}, "model/gone.hpp")
+
+    def test_folder_without_a_layer_is_found(self):
+        self.assert_only_finding({"src/new/a.hpp": "", "src/new/README.md": ""}, "src/new/a.hpp", "no layer")
 
     def test_sources_do_not_include_tests(self):
         self.assert_only_finding(
