@@ -56,8 +56,7 @@ step 4/4 "testing, $jobs at once: some minutes"
 report=$PWD/build/$preset/tests.xml
 rm -f "$report"
 ctest_status=0
-ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --output-junit "$report" "$@" </dev/null \
-    || ctest_status=$?
+ctest --preset "$preset" -j "$jobs" --output-junit "$report" "$@" </dev/null || ctest_status=$?
 took
 
 [[ -s $report ]] || fail "no test ran (ctest's exit status: $ctest_status)"
