@@ -1,0 +1,62 @@
+#pragma once
+// One picture of the fields on a mesh of triangles, as a compressed .vtu that ParaView opens.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gneiss {
+
+/// A named array of numbers at points or in triangles. Nothing is copied: `values` must live until the write is over.
+struct FieldArray {
+    std::string name;                               ///< "displacement", "cauchy_stress"; unique among its kind
+    std::span<const double> values;                 ///< shape (n, n_components), row after row
+    int n_components = 1;                           ///< >= 1; 2 without names is a plane vector, written as (x, y, 0)
+    std::vector<std::string> component_names = {};  ///< none, or one for each component: {"xx", "yy", "xy"}
+};
+
+/// A named whole number for each triangle that stays the same: composite, region.
+struct IntegerArray {
+    std::string name;
+    std::span<const std::int32_t> values;  ///< shape (n_triangles)
+};
+
+/// Where the fields live. A composite triangle is given as its four sub-triangles, one after the other, so that what
+/// is constant in each of them is shown as such.
+struct FieldMesh {
+    std::span<const std::array<double, 2>> points;  ///< reference positions, m, shape (n_points, 2)
+    std::span<const std::array<std::int32_t, 3>>
+        triangles;  ///< point numbers from 0, counter-clockwise, (n_triangles, 3)
+    std::vector<IntegerArray> integers = {};
+};
+
+/// All fields at one time.
+struct Fields {
+    std::vector<FieldArray> points;  ///< arrays with n_points rows
+    std::vector<FieldArray> cells;   ///< arrays with n_triangles rows
+};
+
+/// Writes any number of .vtu files on one mesh: VTK's XML format, appended raw binary, zlib. The mesh is copied once.
+class VtuWriter {
+public:
+    /// @throws std::invalid_argument if a triangle names a point that is not there, or an array has the wrong length
+    explicit VtuWriter(const FieldMesh& mesh);
+    ~VtuWriter();
+    VtuWriter(VtuWriter&&) noexcept;
+    VtuWriter& operator=(VtuWriter&&) noexcept;
+
+    /// Writes `path` whole or not at all. Field data: TimeValue = t (s), which readers take as the time, and step.
+    /// @throws IoError if the file cannot be written
+    /// @throws std::invalid_argument if an array has the wrong length, no name or the name of another
+    void write(const std::filesystem::path& path, double t, std::int64_t step, const Fields& fields) const;
+
+private:
+    struct Grid;  // keeps VTK out of this header
+    std::unique_ptr<Grid> grid_;
+};
+
+}  // namespace gneiss
