@@ -1,0 +1,129 @@
+#include "model/mesh_names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+namespace {
+
+/// Insertions, deletions and replacements that turn a into b [Wagner and Fischer 1974].
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+template <class Map>
+std::vector<std::string> keys(const Map& map) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : map) names.push_back(name);
+    return names;
+}
+
+bool is_region(const Mesh& mesh, const std::string& name) {
+    return std::find(mesh.region_names.begin(), mesh.region_names.end(), name) != mesh.region_names.end();
+}
+
+/// @param wanted  "boundary", "nodes", "region": what the name should have been
+InputError unknown_name(const Mesh& mesh, const std::string& name, const std::string& wanted,
+                        const std::vector<std::string>& names) {
+    std::string message = fmt::format("on = \"{}\": ", name);
+    if (is_region(mesh, name)) {
+        message += fmt::format("this is a region, needed: {}", wanted);
+    } else if (mesh.boundaries.contains(name)) {
+        message += fmt::format("this is a boundary, needed: {}", wanted);
+    } else if (mesh.node_sets.contains(name)) {
+        message += fmt::format("these are nodes, needed: {}", wanted);
+    } else {
+        message += fmt::format("the mesh has no {} of this name", wanted);
+    }
+    if (names.empty()) return {"", message + "; there are none"};
+    message += fmt::format("; there are: \"{}\"", fmt::join(names, "\", \""));
+    if (const std::string nearest = nearest_word(name, names); !nearest.empty()) {
+        message += fmt::format("; did you mean \"{}\"?", nearest);
+    }
+    return {"", message};
+}
+
+std::vector<std::int32_t> nodes_of(const Mesh& mesh, const std::vector<std::int32_t>& elements) {
+    std::vector<std::int32_t> nodes;
+    for (std::int32_t e : elements) {
+        const std::int32_t* first = mesh.element(static_cast<std::size_t>(e));
+        nodes.insert(nodes.end(), first, first + mesh.nodes_per_element());
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+    // One slip per three letters: more and the suggestion is a guess.
+    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::string best;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+const std::vector<BoundaryEdge>& boundary_named(const Mesh& mesh, const std::string& name) {
+    const auto found = mesh.boundaries.find(name);
+    if (found == mesh.boundaries.end()) throw unknown_name(mesh, name, "boundary", keys(mesh.boundaries));
+    return found->second;
+}
+
+const std::vector<std::int32_t>& nodes_named(const Mesh& mesh, const std::string& name) {
+    const auto found = mesh.node_sets.find(name);
+    if (found == mesh.node_sets.end()) throw unknown_name(mesh, name, "boundary or nodes", keys(mesh.node_sets));
+    return found->second;
+}
+
+std::vector<std::int32_t> elements_named(const Mesh& mesh, const std::string& region) {
+    const auto found = std::find(mesh.region_names.begin(), mesh.region_names.end(), region);
+    if (found == mesh.region_names.end()) throw unknown_name(mesh, region, "region", mesh.region_names);
+    const auto wanted = static_cast<std::int32_t>(found - mesh.region_names.begin());
+    std::vector<std::int32_t> elements;
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
+        if (mesh.region[e] == wanted) elements.push_back(static_cast<std::int32_t>(e));
+    }
+    return elements;
+}
+
+std::vector<std::int32_t> region_or_nodes_named(const Mesh& mesh, const std::string& name) {
+    const auto set = mesh.node_sets.find(name);
+    if (is_region(mesh, name)) {
+        std::vector<std::int32_t> nodes = nodes_of(mesh, elements_named(mesh, name));
+        if (set != mesh.node_sets.end() && set->second != nodes) {
+            throw InputError("", fmt::format("on = \"{}\": both a region and a set of nodes have this name", name));
+        }
+        return nodes;
+    }
+    if (set != mesh.node_sets.end()) return set->second;
+    std::vector<std::string> names = mesh.region_names;
+    for (const std::string& other : keys(mesh.node_sets)) {
+        if (!is_region(mesh, other)) names.push_back(other);
+    }
+    throw unknown_name(mesh, name, "region, boundary or nodes", names);
+}
+
+}  // namespace gneiss
