@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <system_error>
 #include <unordered_map>
@@ -53,16 +53,52 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-void require_parameters_in(const std::string& geo, const fs::path& file,
-                           const std::map<std::string, double>& parameters) {
-    static const std::regex identifier("[A-Za-z_][A-Za-z_0-9]*");
-    // A file that reads others may use a parameter there.
-    const bool reads_others = std::regex_search(geo, std::regex("\\b(Include|Merge)\\b"));
+/// The text with // and /* */ comments blanked out. A string that holds // loses its end, which does no harm below.
+std::string without_comments(std::string text) {
+    for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos && at + 1 < text.size();) {
+        std::size_t end = at + 1;
+        if (text[at + 1] == '/')
+            end = text.find('\n', at);
+        else if (text[at + 1] == '*')
+            end = std::min(text.find("*/", at + 2), text.size() - 2) + 2;
+        end = std::min(end, text.size());
+        if (end > at + 1) std::fill(text.begin() + static_cast<long>(at), text.begin() + static_cast<long>(end), ' ');
+        at = end;
+    }
+    return text;
+}
+
+bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool is_name(const std::string& text) {
+    return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
+           std::all_of(text.begin(), text.end(), is_name_character);
+}
+
+bool has_word(const std::string& text, const std::string& word) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        const std::size_t end = at + word.size();
+        const bool starts = at == 0 || !is_name_character(text[at - 1]);
+        if (starts && (end == text.size() || !is_name_character(text[end]))) return true;
+    }
+    return false;
+}
+
+/// What would go wrong unseen: Gmsh skips a last line without line break, Exit ends the whole process, and parameters
+/// that nobody asks for are taken in silence.
+void check_geo(const fs::path& file, const std::map<std::string, double>& parameters) {
+    const std::string text = text_of(file);
+    const std::string geo = without_comments(text);
+    const bool reads_others = has_word(geo, "Include") || has_word(geo, "Merge");  // a parameter may be used there
     std::vector<Problem> problems;
+    if (!text.empty() && text.back() != '\n')
+        problems.push_back({file.string(), "the last line does not end in a line break: Gmsh would skip it"});
+    if (has_word(geo, "Exit"))
+        problems.push_back({file.string(), "the statement Exit would end the program: use Abort, or take it out"});
     for (const auto& [name, value] : parameters) {
-        if (!std::regex_match(name, identifier))
+        if (!is_name(name))
             problems.push_back({file.string(), fmt::format("parameter \"{}\" is not a name that Gmsh can read", name)});
-        else if (!reads_others && !std::regex_search(geo, std::regex("\\b" + name + "\\b")))
+        else if (!reads_others && !has_word(geo, name))
             problems.push_back({file.string(), fmt::format("parameter \"{}\" does not occur in the file", name)});
     }
     if (!problems.empty()) throw InputError(problems);
@@ -70,8 +106,9 @@ void require_parameters_in(const std::string& geo, const fs::path& file,
 
 void mesh_geo(const GmshSession& session, const fs::path& file, const std::map<std::string, double>& parameters) {
     const std::string where = file.string();
-    require_parameters_in(text_of(file), file, parameters);
-    std::string definitions, comparisons;
+    check_geo(file, parameters);
+    // Gmsh refuses to read an empty file: a comment makes sure that there is something.
+    std::string definitions = "// parameters\n", comparisons = definitions;
     for (const auto& [name, value] : parameters) {
         definitions += fmt::format("{} = {:.17g};\n", name, value);
         comparisons += fmt::format(

@@ -5,6 +5,7 @@
 
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -21,23 +22,35 @@ public:
     GmshSession(const GmshSession&) = delete;
     GmshSession& operator=(const GmshSession&) = delete;
 
-    /// The result of call(). Gmsh throws its messages as strings; they leave here as InputError.
+    /// The result of call(). Gmsh is told not to throw, since an exception on its way through Gmsh's parser leaves half
+    /// a file in the parser's buffer, and one in its meshing threads ends the process; its log says what went wrong.
     /// @param where  the file that Gmsh is at work on
+    /// @throws InputError with every error that Gmsh reported during the call
     template <class Call>
     auto run(const std::string& where, Call&& call) const {
+        const std::size_t n_before = errors().size();
         try {
-            return call();
-        } catch (const std::string& message) {
+            if constexpr (std::is_void_v<decltype(call())>) {
+                call();
+                throw_errors(where, n_before);
+            } else {
+                auto result = call();
+                throw_errors(where, n_before);
+                return result;
+            }
+        } catch (const std::string& message) {  // some functions of the interface throw all the same
             throw InputError(where, "Gmsh: " + message);
-        } catch (int code) {
-            throw InputError(where, "Gmsh gave up with code " + std::to_string(code));
         }
     }
 
     /// What Gmsh has warned of so far.
-    std::vector<std::string> warnings() const;
+    std::vector<std::string> warnings() const { return log_lines("Warning: "); }
 
 private:
+    std::vector<std::string> errors() const { return log_lines("Error: "); }
+    std::vector<std::string> log_lines(const std::string& prefix) const;
+    void throw_errors(const std::string& where, std::size_t n_before) const;
+
     std::unique_lock<std::mutex> lock_;
     int n_threads_;
     std::string locale_;

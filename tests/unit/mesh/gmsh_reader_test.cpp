@@ -1,0 +1,381 @@
+#include "mesh/gmsh_reader.hpp"
+
+#include <map>
+
+#include "tests/unit/mesh/mesh_testing.hpp"
+
+namespace gneiss {
+namespace {
+
+using namespace gneiss::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Two triangles of three nodes in a square of side 2, the left one on surface 1 "rock", the right one on surface 2,
+/// group 5 without a name; the left side is curve 1 "wall", the lower left corner point 1 "foot". Node 9 belongs to
+/// nothing.
+///   13---12
+///   | 21/|
+///   |  / |
+///   | /22|
+///   10---11
+constexpr const char* square_msh = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+0 7 "foot"
+1 3 "wall"
+2 4 "rock"
+$EndPhysicalNames
+$Entities
+1 1 2 0
+1 0 0 0 1 7
+1 0 0 0 0 2 0 1 3 0
+1 0 0 0 2 2 0 1 4 0
+2 0 0 0 2 2 0 1 5 0
+$EndEntities
+$Nodes
+1 5 9 13
+2 1 0 5
+9
+10
+11
+12
+13
+5 5 0
+0 0 0
+2 0 0
+2 2 0
+0 2 0
+$EndNodes
+$Elements
+4 4 1 22
+0 1 15 1
+1 10
+1 1 1 1
+2 10 13
+2 1 2 1
+21 10 12 13
+2 2 2 1
+22 10 11 12
+$EndElements
+)";
+
+/// One triangle of six nodes, corners 1 2 3, then the mid-sides 4 (bent down), 5, 6.
+constexpr const char* bent_msh = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+0 1 1 0
+1 0 0 0 0 2 0 1 8 0
+1 0 0 0 2 2 0 0 0
+$EndEntities
+$Nodes
+1 6 1 6
+2 1 0 6
+1
+2
+3
+4
+5
+6
+0 0 0
+2 0 0
+0 2 0
+1 -0.25 0
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+2 2 1 2
+1 1 8 1
+1 1 2 4
+2 1 9 1
+2 1 2 3 4 5 6
+$EndElements
+)";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+std::string element_data(const std::string& name, const std::string& rows, int n_rows, int n_components = 1) {
+    return "$ElementData\n1\n\"" + name + "\"\n1\n0.0\n3\n0\n" + std::to_string(n_components) + "\n" +
+           std::to_string(n_rows) + "\n" + rows + "$EndElementData\n";
+}
+
+class GmshFile : public ::testing::Test {
+protected:
+    Mesh read(const std::string& name, const std::string& text, bool curved = true, bool compt = true) {
+        folder.write(name, text);
+        MeshOptions options;
+        options.source = MeshOptions::Source::file;
+        options.file = name;
+        options.parameters = parameters;
+        options.curved = curved;
+        report = {};
+        return make_mesh(options, compt, folder.path(), &report);
+    }
+    std::string error_of(const std::string& name, const std::string& text) {
+        return input_error_of([&] { read(name, text); });
+    }
+    std::string in_folder(const std::string& name) const { return (folder.path() / name).string(); }
+
+    TemporaryFolder folder;
+    std::map<std::string, double> parameters;
+    MeshReport report;
+};
+
+TEST_F(GmshFile, Msh_ThreeNodedTriangles_BecomeComposites) {
+    const Mesh mesh = read("square.msh", square_msh);
+    ASSERT_EQ(mesh.n_elements(), 2u);
+    EXPECT_EQ(mesh.n_nodes(), 9u);
+    EXPECT_NEAR(total_area(mesh), 4, round_off);
+    EXPECT_NEAR(smallest_signed_area(mesh), 0.5, round_off);
+    EXPECT_THAT(mesh.element_labels, ::testing::UnorderedElementsAre(21, 22));
+}
+
+TEST_F(GmshFile, Msh_PhysicalGroups_NameRegionsBoundariesAndPoints) {
+    const Mesh mesh = read("square.msh", square_msh);
+    for (std::size_t e = 0; e < 2; ++e)
+        EXPECT_EQ(mesh.region_names.at(static_cast<std::size_t>(mesh.region[e])),
+                  mesh.element_labels[e] == 21 ? "rock" : "5");
+    EXPECT_NEAR(length(mesh, "wall"), 2, round_off);
+    for (const BoundaryEdge& edge : mesh.boundaries.at("wall")) EXPECT_EQ(normal(mesh, edge)[0], -1);
+    EXPECT_EQ(mesh.node_sets.at("wall").size(), 3u);
+    ASSERT_EQ(mesh.node_sets.at("foot").size(), 1u);
+    EXPECT_EQ(mesh.node_labels[mesh.node_sets.at("foot")[0]], 10);
+    EXPECT_NEAR(length(mesh, "boundary"), 8, round_off);
+}
+
+TEST_F(GmshFile, Msh_UnusedNode_IsLeftOutAndReported) {
+    const Mesh mesh = read("square.msh", square_msh);
+    EXPECT_THAT(report.warnings, ElementsAre("left out, they belong to no element: node 9"));
+    EXPECT_THAT(mesh.node_labels, ::testing::Not(Contains(9)));
+}
+
+TEST_F(GmshFile, Msh_SixNodedTriangle_KeepsItsMidSides) {
+    const Mesh mesh = read("bent.msh", bent_msh);
+    ASSERT_EQ(mesh.n_elements(), 1u);
+    const std::vector<Point2> around{{0, 0}, {1, -0.25}, {2, 0}, {1, 1}, {0, 2}, {0, 1}};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(mesh.nodes[mesh.element(0)[i]], around[i]) << i;
+    EXPECT_THAT(mesh.region_names, ElementsAre("solid"));
+    EXPECT_EQ(mesh.boundaries.at("8").size(), 2u);
+    EXPECT_EQ(read("bent.msh", bent_msh, false).nodes[1], (Point2{1, 0}));
+    EXPECT_EQ(read("bent.msh", bent_msh, true, false).n_elements(), 4u);
+}
+
+TEST_F(GmshFile, Msh_AllClockwise_IsTurned) {
+    const Mesh mesh = read("bent.msh", replaced(bent_msh, "2 1 2 3 4 5 6", "2 1 3 2 6 5 4"));
+    EXPECT_GT(smallest_signed_area(mesh), 0);
+}
+
+TEST_F(GmshFile, Msh_OneClockwise_IsRefusedByNumber) {
+    EXPECT_THAT(error_of("square.msh", replaced(square_msh, "21 10 12 13", "21 10 13 12")),
+                HasSubstr(in_folder("square.msh") + ": inverted, nodes clockwise where those of the others run "
+                                                    "counter-clockwise: element 21"));
+}
+
+TEST_F(GmshFile, Msh_ZeroArea_IsRefusedByNumber) {
+    EXPECT_THAT(error_of("square.msh", replaced(square_msh, "0 2 0\n$EndNodes", "1 1 0\n$EndNodes")),
+                HasSubstr("zero area, of the whole or of one of its four sub-triangles: element 21"));
+}
+
+TEST_F(GmshFile, Msh_ElementData_FollowTheirElements) {
+    const Mesh mesh = read("square.msh", square_msh + element_data("angle", "22 0.75\n21 -0.5\n", 2) +
+                                             element_data("depth", "21 1\n22 2\n", 2));
+    for (std::size_t e = 0; e < 2; ++e) {
+        EXPECT_EQ(mesh.element_data.at("angle")[e], mesh.element_labels[e] == 21 ? -0.5 : 0.75);
+        EXPECT_EQ(mesh.element_data.at("depth")[e], mesh.element_labels[e] == 21 ? 1 : 2);
+    }
+    const Mesh cst = read("square.msh", square_msh + element_data("angle", "22 0.75\n21 -0.5\n", 2), true, false);
+    EXPECT_EQ(cst.element_data.at("angle").size(), 8u);
+}
+
+TEST_F(GmshFile, Msh_IncompleteElementData_AreRefused) {
+    EXPECT_EQ(
+        error_of("square.msh", square_msh + element_data("angle", "22 0.75\n", 1) +
+                                   element_data("axis", "21 1 0 0\n22 1 0 0\n", 2, 3) +
+                                   element_data("depth", "21 1\n22 2\n", 2) + element_data("depth", "21 1\n22 2\n", 2)),
+        in_folder("square.msh") + ": element data \"angle\" are missing for element 21\n" + in_folder("square.msh") +
+            ": element data \"axis\" have 3 components; only one is read\n" + in_folder("square.msh") +
+            ": element data \"depth\" are given twice");
+}
+
+TEST_F(GmshFile, Msh_NodeData_AreLeftOutWithAWarning) {
+    std::string data = element_data("head", "10 1\n11 1\n12 1\n13 1\n", 4);
+    data = replaced(replaced(data, "$ElementData", "$NodeData"), "$EndElementData", "$EndNodeData");
+    const Mesh mesh = read("square.msh", square_msh + data);
+    EXPECT_THAT(mesh.element_data, IsEmpty());
+    EXPECT_THAT(report.warnings, Contains("NodeData \"head\" is not read: only ElementData is"));
+}
+
+TEST_F(GmshFile, Msh_Quadrangle_IsRefusedByNumber) {
+    const std::string quad = replaced(replaced(square_msh, "2 1 2 1\n21 10 12 13\n", "2 1 3 1\n21 10 11 12 13\n"),
+                                      "2 2 2 1\n22 10 11 12\n", "");
+    EXPECT_THAT(error_of("quad.msh", replaced(quad, "4 4 1 22", "3 3 1 22")),
+                HasSubstr("only triangles of 3 or 6 nodes are read: element 21 is a Quadrilateral 4 (1 such)"));
+}
+
+TEST_F(GmshFile, Msh_OffThePlane_IsRefusedByNumber) {
+    EXPECT_THAT(error_of("square.msh", replaced(square_msh, "2 2 0\n0 2 0\n$End", "2 2 0.5\n0 2 0\n$End")),
+                HasSubstr("the mesh must lie in a plane z = constant: node 12 does not (1 such)"));
+}
+
+TEST_F(GmshFile, Msh_PartlyGroupedSurfaces_AreRefused) {
+    EXPECT_THAT(
+        error_of("square.msh", replaced(square_msh, "2 0 0 0 2 2 0 1 5 0", "2 0 0 0 2 2 0 0 0")),
+        HasSubstr("1 triangles, of which element 22 is the first, are on surface 2, which belongs to no physical group "
+                  "while other surfaces do"));
+    EXPECT_THAT(error_of("square.msh", replaced(square_msh, "2 0 0 0 2 2 0 1 5 0", "2 0 0 0 2 2 0 2 5 4 0")),
+                HasSubstr("surface 2 belongs to more than one physical group"));
+}
+
+TEST_F(GmshFile, Msh_NoTriangles_IsRefused) {
+    const std::string text =
+        replaced(replaced(replaced(square_msh, "2 1 2 1\n21 10 12 13\n", ""), "2 2 2 1\n22 10 11 12\n", ""), "4 4 1 22",
+                 "2 2 1 22");
+    EXPECT_THAT(error_of("empty.msh", text), HasSubstr("no triangles: the mesh is empty"));
+}
+
+TEST_F(GmshFile, Msh_Damaged_IsRefusedWithItsName) {
+    EXPECT_THAT(error_of("junk.msh", "hello\n"), HasSubstr(in_folder("junk.msh") + ": Gmsh: "));
+    EXPECT_THAT(error_of("void.msh", ""), HasSubstr(in_folder("void.msh") + ": "));
+    EXPECT_THAT(error_of("lost.msh", replaced(square_msh, "21 10 12 13", "21 10 12 77")),
+                HasSubstr(in_folder("lost.msh") + ": "));
+}
+
+TEST_F(GmshFile, Msh_CutAnywhere_IsRefusedWithItsName) {
+    const std::string whole(square_msh);
+    // Without the last line break, or the end mark behind complete elements, nothing is lost.
+    const std::size_t complete = whole.find("\n$EndElements");
+    for (std::size_t n = 1; n < complete; n += 7) {
+        SCOPED_TRACE(n);
+        EXPECT_THAT(error_of("cut.msh", whole.substr(0, n)), HasSubstr(in_folder("cut.msh") + ": "));
+    }
+}
+
+TEST_F(GmshFile, Missing_IsRefusedWithItsName) {
+    MeshOptions options;
+    options.source = MeshOptions::Source::file;
+    options.file = "nowhere.msh";
+    EXPECT_EQ(input_error_of([&] { make_mesh(options, true, folder.path()); }),
+              in_folder("nowhere.msh") + ": there is no such file");
+}
+
+/// Quarter of a ring between radii 1 and 2, with construction point 1.
+constexpr const char* ring_geo = R"(DefineConstant[ lc = {0.5, Name "Parameters/size"} ];
+Point(1) = {0, 0, 0, lc};
+Point(2) = {1, 0, 0, lc};
+Point(3) = {2, 0, 0, lc};
+Point(4) = {0, 2, 0, lc};
+Point(5) = {0, 1, 0, lc};
+Line(1) = {2, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 5};
+Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Surface("ring") = {1};
+Physical Curve("inner") = {4};
+Physical Curve(17) = {2};
+Physical Point("tip") = {3};
+)";
+
+TEST_F(GmshFile, Geo_IsMeshedWithCurvedComposites) {
+    const Mesh mesh = read("ring.geo", ring_geo);
+    EXPECT_THAT(mesh.region_names, ElementsAre("ring"));
+    constexpr double gmsh_accuracy = 1e-8;  // Gmsh's geometry tolerance
+    for (std::int32_t n : mesh.node_sets.at("inner"))
+        EXPECT_NEAR(std::hypot(mesh.nodes[n][0], mesh.nodes[n][1]), 1, gmsh_accuracy);
+    for (std::int32_t n : mesh.node_sets.at("17"))
+        EXPECT_NEAR(std::hypot(mesh.nodes[n][0], mesh.nodes[n][1]), 2, gmsh_accuracy);
+    EXPECT_EQ(mesh.nodes[mesh.node_sets.at("tip").at(0)], (Point2{2, 0}));
+    expect_sound_boundaries(mesh);
+    EXPECT_THAT(report.warnings, IsEmpty());
+    const Mesh straight = read("ring.geo", ring_geo, false);
+    EXPECT_LT(length(straight, "17"), length(mesh, "17"));
+}
+
+TEST_F(GmshFile, Geo_Parameters_AreDefinedBeforeItIsRead) {
+    const std::size_t coarse = read("ring.geo", ring_geo).n_elements();
+    parameters = {{"lc", 0.1}};
+    EXPECT_GT(read("ring.geo", ring_geo).n_elements(), 10 * coarse);
+    // Nothing of it stays behind.
+    parameters = {};
+    EXPECT_EQ(read("ring.geo", ring_geo).n_elements(), coarse);
+}
+
+TEST_F(GmshFile, Geo_UselessParameters_AreRefused) {
+    parameters = {{"cl", 0.1}, {"not a name", 1}};
+    EXPECT_EQ(error_of("ring.geo", ring_geo),
+              in_folder("ring.geo") + ": parameter \"cl\" does not occur in the file\n" + in_folder("ring.geo") +
+                  ": parameter \"not a name\" is not a name that Gmsh can read");
+    parameters = {{"lc", 0.1}};
+    const std::string fixed = replaced(ring_geo, "DefineConstant[ lc = {0.5, Name \"Parameters/size\"} ]", "lc = 0.5");
+    EXPECT_THAT(error_of("ring.geo", fixed),
+                HasSubstr("parameter lc is overwritten by the file: define it there by DefineConstant[ lc = ... ]"));
+}
+
+TEST_F(GmshFile, Geo_Faulty_IsRefusedWithLine) {
+    EXPECT_THAT(error_of("bad.geo", "lc = 0.1;\nPoint(1) = {0, 0, 0, lc};\nfoo bar;\n"),
+                ::testing::AllOf(HasSubstr("bad.geo: Gmsh: "), HasSubstr("line 3: Unknown variable 'bar'")));
+    EXPECT_THAT(error_of("open.geo", replaced(ring_geo, "{1, 2, 3, 4}", "{1, 2, 3}")), HasSubstr("open.geo: "));
+    EXPECT_THAT(error_of("points.geo", "Point(1) = {0, 0, 0, 1};\n"), HasSubstr("points.geo: "));
+}
+
+TEST_F(GmshFile, Geo_Exit_IsRefusedButNotInComments) {
+    EXPECT_THAT(error_of("exit.geo", std::string(ring_geo) + "Exit;\n"),
+                HasSubstr("the statement Exit would end the program"));
+    EXPECT_GT(
+        read("ring.geo", std::string("// Exit;\n/* Exit; */\n/*/ Exit; */") + ring_geo + "// Exit\n").n_elements(), 0u);
+}
+
+TEST_F(GmshFile, Geo_WithoutLastLineBreak_IsRefused) {
+    std::string text = ring_geo;
+    text.pop_back();
+    EXPECT_EQ(error_of("ring.geo", text),
+              in_folder("ring.geo") + ": the last line does not end in a line break: Gmsh would skip it");
+}
+
+TEST_F(GmshFile, Geo_ParameterInAComment_DoesNotOccur) {
+    parameters = {{"size_of_it", 1}};
+    EXPECT_THAT(error_of("ring.geo", std::string(ring_geo) + "// size_of_it\n"),
+                HasSubstr("does not occur in the file"));
+}
+
+TEST_F(GmshFile, Geo_CrossedOutline_IsRefusedWithGmshsReason) {
+    EXPECT_THAT(error_of("crossed.geo",
+                         "Point(1) = {0,0,0,0.3}; Point(2) = {1,0,0,0.3}; Point(3) = {1,1,0,0.3}; "
+                         "Point(4) = {0,1,0,0.3}; Line(1) = {1,3}; Line(2) = {3,2}; Line(3) = {2,4}; "
+                         "Line(4) = {4,1}; Curve Loop(1) = {1,2,3,4}; Plane Surface(1) = {1};\n"),
+                HasSubstr("crossed.geo: Gmsh: Unable to recover the edge"));
+}
+
+TEST_F(GmshFile, Geo_EmbeddedLine_HasNodesButNoEdges) {
+    const Mesh mesh =
+        read("fault.geo", std::string(ring_geo) +
+                              "Point(8) = {1.2, 0.3, 0, lc}; Point(9) = {1.5, 0.6, 0, lc};\n"
+                              "Line(9) = {8, 9}; Line{9} In Surface{1}; Physical Curve(\"fault\") = {9};\n");
+    EXPECT_GE(mesh.node_sets.at("fault").size(), 3u);
+    EXPECT_EQ(mesh.boundaries.count("fault"), 0u);
+    EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("curve \"fault\" runs inside the solid")));
+}
+
+TEST_F(GmshFile, Geo_Recombined_IsRefused) {
+    EXPECT_THAT(error_of("quads.geo", std::string(ring_geo) + "Recombine Surface {1};\n"),
+                HasSubstr("only triangles of 3 or 6 nodes are read: element"));
+}
+
+TEST_F(GmshFile, Geo_MeshedByItself_IsTakenAsItIs) {
+    const std::size_t plain = read("ring.geo", ring_geo).n_elements();
+    EXPECT_EQ(read("own.geo", std::string(ring_geo) + "Mesh 2;\n").n_elements(), plain);
+}
+
+}  // namespace
+}  // namespace gneiss
