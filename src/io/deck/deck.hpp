@@ -1,0 +1,42 @@
+#pragma once
+// Reading a deck: TOML text into CaseOptions. docs/deck.md is the reference of its keys.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/options.hpp"
+
+namespace gneiss {
+
+/// Reads and checks a deck. A mesh file named in it is taken relative to the deck's folder.
+/// @param set  "key=value" each, laid over the deck before it is checked: "run.t_end=0.01",
+///             "material.0.constants.M_v=1e9"; the value is TOML, a bare word is a string
+/// @throws InputError with every problem of the deck, in the order of the file: "case.toml:12:11: key `run.t_end`: …",
+///         those of `set` after them as "--set key=value: …". A syntax error of TOML comes alone, with its place.
+CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set = {});
+
+/// The same for text at hand; `name` stands for the file in messages, and a mesh file stays as it is written.
+CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set = {});
+
+/// What `gneiss list` shows: the names a deck may use for one kind of thing, each with its meaning in one line.
+struct Listing {
+    struct Entry {
+        std::string name, meaning;
+    };
+    std::string topic;  ///< "elements", "materials", …
+    std::string where;  ///< the key that takes these names: "solid.element"
+    std::vector<Entry> entries;
+};
+std::vector<Listing> deck_listings();
+
+/// The text of docs/deck.md with every generated table renewed: between the lines `<!-- keys of NAME -->` and
+/// `<!-- end -->`, NAME being the name of a section of the schema.
+/// @throws InputError if a section has no such place in the text, or a place names no section
+std::string renew_deck_reference(std::string_view document);
+
+/// Every key of a deck by its full name, array positions left out: "material.constants.M_v".
+std::vector<std::string> deck_keys();
+
+}  // namespace gneiss

@@ -1,0 +1,88 @@
+#include "io/deck/schema.hpp"
+
+#include <fmt/format.h>
+
+#include "io/deck/suggest.hpp"
+
+namespace gneiss::deck {
+namespace {
+
+std::string quoted_list(const std::vector<std::string_view>& names, char quote) {
+    std::string text;
+    for (std::string_view name : names) text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", quote, name, quote);
+    return text;
+}
+
+std::string condition_text(const std::vector<Condition>& conditions) {
+    std::string text;
+    for (const Condition& condition : conditions) {
+        text += fmt::format("{}`{}`", text.empty() ? "" : " or ", condition.key);
+        if (!condition.words.empty()) text += " = " + quoted_list(condition.words, '"');
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string TableReader::path_of(std::string_view key) const {
+    return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+Value TableReader::value(std::string_view key) const { return {findings_, *table_.get(key), path_of(key), where_}; }
+
+void TableReader::problem(std::string_view key, std::string_view message) const {
+    const toml::node* node = table_.get(key);
+    findings_.add(node ? position_of(node->source(), where_) : where_,
+                  fmt::format("key `{}`: {}", path_of(key), message));
+}
+
+void TableReader::refuse_unknown(const std::vector<std::string_view>& known) {
+    for (const auto& [key, node] : table_) {
+        const std::string_view name = key.str();
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        has_unknown_ = true;
+        if (const std::string_view meant = nearest(name, known); !meant.empty() && !given(meant)) mark_failed(meant);
+        std::string hint = suggestion(name, known);
+        if (const std::string home = home_of(name); !home.empty()) hint = fmt::format(", it belongs to {}", home);
+        if (hint.empty()) hint = ", allowed: " + quoted_list(known, '`');
+        findings_.add(position_of(key.source(), position_of(node.source(), where_)),
+                      fmt::format("key `{}`: unknown{}", path_of(name), hint));
+    }
+}
+
+void TableReader::missing(const KeyDoc& key) {
+    mark_failed(key.name);
+    std::string must = key.type + (key.words.empty() ? key.range.requirement(key.unit) : "");
+    for (const Word& word : key.words)
+        must += fmt::format("{}\"{}\"", &word == &key.words.front() ? " " : ", ", word.name);
+    const std::string alternative = key.or_else.empty() ? "" : fmt::format(" (or `{}`)", key.or_else);
+    problem(key.name, fmt::format("missing{}, must be {}", alternative, must));
+}
+
+std::string_view TableReader::chosen(std::string_view key) const {
+    const auto found = chosen_.find(key);
+    return found == chosen_.end() ? std::string_view() : found->second;
+}
+
+TableReader::Holds TableReader::any_of(const std::vector<Condition>& conditions) const {
+    Holds holds = Holds::no;
+    for (const Condition& condition : conditions) {
+        if (failed(condition.key)) {
+            holds = Holds::unknown;
+        } else if (condition.words.empty() ? given(condition.key)
+                                           : std::find(condition.words.begin(), condition.words.end(),
+                                                       chosen(condition.key)) != condition.words.end()) {
+            return Holds::yes;
+        }
+    }
+    return holds;
+}
+
+void TableReader::out_of_place(const KeyDoc& key) const {
+    const std::string_view decider = key.only_for.front().key;
+    const std::string_view word = chosen(decider);
+    problem(key.name, fmt::format("only for {}, here `{}` is {}", condition_text(key.only_for), decider,
+                                  word.empty() ? "not given" : fmt::format("\"{}\"", word)));
+}
+
+}  // namespace gneiss::deck

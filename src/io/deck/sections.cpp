@@ -1,0 +1,241 @@
+#include "io/deck/sections.hpp"
+
+#include <algorithm>
+
+#include "io/deck/keys.hpp"
+
+namespace gneiss::deck {
+namespace {
+
+/// Numbers by name, for a .geo.
+bool read_parameters(const Value& value, TableReader&, MeshOptions& out) {
+    const toml::table* content = value.node().as_table();
+    if (content == nullptr) {
+        value.refuse("a table of numbers");
+        return false;
+    }
+    bool good = true;
+    for (const auto& [name, node] : *content) {
+        const Value parameter(value.findings(), node, fmt::format("{}.{}", value.key(), name.str()), value.where());
+        good = parameter.read(out.parameters[std::string(name.str())], NumberRule{}) && good;
+    }
+    return good;
+}
+
+bool read_mesh_file(const Value& value, TableReader&, MeshOptions& out) {
+    if (!value.read(out.file)) return false;
+    out.source = MeshOptions::Source::file;
+    if (out.file.ends_with(".msh") || out.file.ends_with(".geo")) return true;
+    value.refuse("a file of Gmsh, ending in .msh or .geo");
+    return false;
+}
+
+bool read_cells(const Value& value, TableReader&, MeshOptions& out) {
+    const auto values = value.elements(out.cells.size(), "integers ≥ 1");
+    bool good = values.has_value();
+    for (std::size_t i = 0; values && i < out.cells.size(); ++i) {
+        good = (*values)[i].read(out.cells[i], NumberRule{at_least(1), ""}) && good;
+    }
+    return good;
+}
+
+void check_mesh(TableReader& table, MeshOptions& mesh) {
+    if (table.given("generator") && table.given("file")) {
+        table.problem("file", "given together with `generator`, a mesh comes from one of them");
+    }
+    const bool plate =
+        table.chosen("generator") == "plate_with_hole" && !table.failed("side") && !table.failed("radius");
+    if (plate && !(mesh.side > 2 * mesh.radius)) {
+        table.problem("side", fmt::format("given {}, must be > {} m, twice the radius", mesh.side, 2 * mesh.radius));
+    }
+}
+
+void check_solid(TableReader& table, SolidOptions& solid) {
+    if (!table.failed("plane")) table.findings().plane = solid.plane;
+    if (!table.failed("element") && !table.failed("volumetric")) table.findings().volumetric = solid.volumetric;
+}
+
+void check_output(TableReader& table, OutputOptions& output) {
+    for (std::size_t i = 0; i < output.probes.size(); ++i) {
+        const std::string& name = output.probes[i].name;
+        const auto same = [&](const ProbeOptions& probe) { return probe.name == name; };
+        const auto first = std::find_if(output.probes.begin(), output.probes.end(), same) - output.probes.begin();
+        if (name.empty() || static_cast<std::size_t>(first) == i) continue;
+        const toml::node& node = *table.table()["probes"][i]["name"].node();
+        Value(table.findings(), node, fmt::format("{}[{}].name", table.path_of("probes"), i), table.where())
+            .problem(
+                fmt::format("given \"{}\", which is the name of {}[{}] already", name, table.path_of("probes"), first));
+    }
+}
+
+bool read_probe_name(const Value& value, TableReader&, ProbeOptions& out) {
+    if (!value.read(out.name)) return false;
+    if (out.name.find_first_of(",\"' \t\n") == std::string::npos) return true;
+    value.refuse("free of blanks, commas and quotes: it heads columns of probes.csv");
+    return false;
+}
+
+}  // namespace
+
+const Section<MeshOptions>& mesh_section() {
+    using M = MeshOptions;
+    const std::vector<Condition> rectangle{{"generator", {"rectangle"}}}, plate{{"generator", {"plate_with_hole"}}},
+        file{{"file", {}}}, plate_or_file{{"generator", {"plate_with_hole"}}, {"file", {}}};
+    static const Section<M> section{
+        {choice<M>("generator", mesh_generators, "", [](M& out, M::Source source) { out.source = source; },
+                   {.required = true, .or_else = "file", .meaning = "shape that is meshed here; or give `file`"}),
+         custom<M>(
+             "file", "a string", "",
+             {.meaning = "mesh of Gmsh, `.msh` (version 4.1) or `.geo`, relative to the deck; or give `generator`"},
+             read_mesh_file),
+         custom<M>("parameters", "a table of numbers", "",
+                   {.only_for = file, .meaning = "numbers defined before a `.geo` is read, `{ name = number, … }`"},
+                   read_parameters),
+         number("width", &M::width,
+                {.unit = "m", .range = above(0), .required = true, .only_for = rectangle, .meaning = "extent along x"}),
+         number("height", &M::height,
+                {.unit = "m", .range = above(0), .required = true, .only_for = rectangle, .meaning = "extent along y"}),
+         numbers("origin", &M::origin, {.unit = "m", .only_for = rectangle, .meaning = "lower left corner, [x, y]"}),
+         custom<M>("cells", "an array of 2 integers", "",
+                   {.range = at_least(1),
+                    .required = true,
+                    .only_for = rectangle,
+                    .meaning = "cells along x and y; a composite's sub-edges are half as long as a cell"},
+                   read_cells),
+         choice("pattern", &M::pattern, mesh_patterns, {.only_for = rectangle, .meaning = "diagonals of the cells"}),
+         number("side", &M::side,
+                {.unit = "m",
+                 .range = above(0),
+                 .required = true,
+                 .only_for = plate,
+                 .meaning = "side of the square, more than twice the radius"}),
+         number("radius", &M::radius,
+                {.unit = "m", .range = above(0), .required = true, .only_for = plate, .meaning = "radius of the hole"}),
+         numbers(
+             "size", &M::size,
+             {.unit = "m",
+              .range = above(0),
+              .required = true,
+              .only_for = plate,
+              .meaning = "edge of a composite at the hole and at the outer boundary; its sub-edges are half as long"}),
+         choice("layout", &M::layout, mesh_layouts, {.only_for = plate, .meaning = "how the plate is meshed"}),
+         integer("seed", &M::seed,
+                 {.range = at_least(0),
+                  .only_for = plate,
+                  .meaning = "moves the first point on the hole, so that free meshes differ"}),
+         boolean("curved", &M::curved,
+                 {.only_for = plate_or_file,
+                  .meaning = "mid-side nodes follow a curved boundary; false: all sides straight"})},
+        check_mesh};
+    return section;
+}
+
+const Section<SolidOptions>& solid_section() {
+    using S = SolidOptions;
+    static const Section<S> section{
+        {choice("element", &S::compt, elements, {.meaning = "kind of element"}),
+         choice("plane", &S::plane, planes, {.required = true, .meaning = "what happens out of the plane"}),
+         number("thickness", &S::thickness, {.unit = "m", .range = above(0), .meaning = "out of the plane"}),
+         choice(
+             "volumetric", &S::volumetric, volumetrics,
+             {.only_for = {{"element", {"compt"}}}, .meaning = "where a composite takes its one volumetric stretch"})},
+        check_solid};
+    return section;
+}
+
+const Section<IntegratorOptions>& integrator_section() {
+    using I = IntegratorOptions;
+    static const Section<I> section{
+        {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
+         number("safety", &I::safety, {.range = half_open(0, 1), .meaning = "part of the critical step that is taken"}),
+         number("dt", &I::dt,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .meaning = "fixed step; 0: `safety` times the critical step, renewed as the mesh deforms"}),
+         choice("bound", &I::lanczos, step_bounds, {.meaning = "how the critical step is found"})}};
+    return section;
+}
+
+const Section<RunOptions>& run_section() {
+    using R = RunOptions;
+    static const Section<R> section{
+        {number("t_end", &R::t_end,
+                {.unit = "s", .range = above(0), .required = true, .meaning = "simulated time at which the run ends"}),
+         number(
+             "checkpoint", &R::checkpoint,
+             {.unit = "s", .range = at_least(0), .meaning = "simulated time between checkpoints; 0: one at the end"}),
+         number("mass_damping", &R::mass_damping,
+                {.unit = "1/s", .range = at_least(0), .meaning = "damping force per mass and velocity"})}};
+    return section;
+}
+
+const Section<ProbeOptions>& probe_section() {
+    using P = ProbeOptions;
+    static const Section<P> section{
+        {custom<P>("name", "a string", "",
+                   {.required = true,
+                    .meaning = "heads the columns of probes.csv; no two alike, no blanks, commas or quotes"},
+                   read_probe_name),
+         numbers("at", &P::at, {.unit = "m", .required = true, .meaning = "position in the reference shape, [x, y]"}),
+         numbers("about", &P::about,
+                 {.unit = "m", .meaning = "centre, [x, y]: adds the components along and across the ray from it"})}};
+    return section;
+}
+
+const Section<OutputOptions>& output_section() {
+    using O = OutputOptions;
+    static const Section<O> section{
+        {number("fields", &O::fields,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .meaning = "simulated time between fields for ParaView; 0: the last state only"}),
+         numbers("field_times", &O::field_times,
+                 {.unit = "s", .range = at_least(0), .meaning = "further times at which the fields are written"}),
+         number("history", &O::history,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .meaning = "simulated time between rows of history.csv and probes.csv; 0: 1000 rows over the run"}),
+         tables("probes", &O::probes, probe_section, {.meaning = "points that are watched"})},
+        check_output};
+    return section;
+}
+
+const Section<CaseOptions>& case_section() {
+    using C = CaseOptions;
+    const auto check = [](TableReader& table, C& out) {
+        if (table.given("material") && out.materials.empty() && !table.failed("material")) {
+            table.problem("material", "given none, must be at least one [[material]]");
+        }
+        std::map<std::string, std::size_t> owner;  // of each region; the empty name stands for all others
+        for (std::size_t i = 0; i < out.materials.size(); ++i) {
+            const toml::node& node = *table.table()["material"][i].node();
+            const Value material(table.findings(), node, fmt::format("material[{}].region", i), table.where());
+            const auto& regions = out.materials[i].regions;
+            for (const std::string& region : regions.empty() ? std::vector<std::string>{""} : regions) {
+                const auto [found, is_new] = owner.emplace(region, i);
+                if (is_new) continue;
+                material.problem(
+                    region.empty()
+                        ? fmt::format("missing, and material[{}] takes all other regions already", found->second)
+                        : fmt::format("\"{}\" is given twice, first to material[{}]", region, found->second));
+            }
+        }
+    };
+    static const Section<C> section{
+        {string("title", &C::title, {.meaning = "one line about the case"}),
+         table("mesh", &C::mesh, mesh_section, {.required = true, .meaning = "the mesh"}),
+         table("solid", &C::solid, solid_section, {.required = true, .meaning = "kind of element and plane"}),
+         tables("material", &C::materials, material_section,
+                {.required = true, .meaning = "materials, one `[[material]]` each"}),
+         tables("load", &C::loads, load_section, {.meaning = "loads, one `[[load]]` each"}),
+         tables("boundary", &C::boundaries, boundary_section,
+                {.meaning = "boundary conditions, one `[[boundary]]` each"}),
+         tables("initial", &C::initial, initial_section, {.meaning = "initial velocities, one `[[initial]]` each"}),
+         table("integrator", &C::integrator, integrator_section, {.meaning = "time integration"}),
+         table("run", &C::run, run_section, {.required = true, .meaning = "how long, how damped"}),
+         table("output", &C::output, output_section, {.meaning = "what is written, and when"})},
+        check};
+    return section;
+}
+
+}  // namespace gneiss::deck

@@ -1,0 +1,265 @@
+// The schema against docs/deck.md, the option structs and decks that use every key.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "io/deck/deck.hpp"
+#include "io/deck/sections.hpp"
+
+namespace gneiss {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Together these decks use every key of the schema.
+const char* const full_decks[] = {
+    R"toml(
+title = "plate, transversely isotropic rock, hypo-elastic"
+[mesh]
+generator = "plate_with_hole"
+side = 40.0
+radius = 1
+size = [0.1, 0.5]
+layout = "structured"
+seed = 3
+curved = false
+[solid]
+element = "compt"
+plane = "strain"
+thickness = 2.0
+volumetric = "centre"
+[[material]]
+region = ["rock", "vein"]
+law = "munjiza"
+form = "hypo"
+stress_map = "direct"
+density = 2650
+constants = { E_alpha = 20e9, E_beta = 10e9, nu_alpha_beta = 0.3, nu_beta_alpha = 0.15, nu_p_alpha = 0.2, G = 4.5e9 }
+axes = { angle = "0.2*sin(x/5)" }
+stiffening = { k = 1, p_ref = 1e6, n = 0.5 }
+in_situ_stress = [-1e6, "-2e6 - 25e3*y", 0]
+viscosity = { shear = 10, bulk = 20.0 }
+[[material]]
+density = 2000.0
+constants = { M_v = 0, M_alpha = 1e9, M_beta = 2e9, M_psi = 1e9 }
+stress_map = "direct"
+[[load]]
+on = "hole"
+type = "pressure"
+value = 1e6
+amplitude = { type = "ramp", start = 1e-3, end = 2e-3 }
+[[load]]
+type = "body_force"
+value = [0, "-9.81*2650"]
+amplitude = { type = "expression", expression = "sin(2*pi*t)*x" }
+[[boundary]]
+on = "outer"
+type = "velocity"
+value = ["free", "0.1*x"]
+amplitude = { type = "table", times = [0, 1, 1, 2], values = [0, 1, 0, 0] }
+[[boundary]]
+on = "outer"
+type = "displacement"
+value = [0, "free"]
+amplitude = { type = "heaviside", start = 0.5 }
+[[initial]]
+on = "rock"
+velocity = [0, "0.1*x"]
+[integrator]
+type = "central_difference"
+safety = 0.5
+dt = 1e-6
+bound = "lanczos"
+[run]
+t_end = 0.02
+checkpoint = 0.01
+mass_damping = 3
+[output]
+fields = 2e-4
+field_times = [1e-3, 0.5e-3]
+history = 1e-5
+probes = [{ at = [5.0, 0.0], name = "p0", about = [0.0, 0.0] }]
+)toml",
+    R"toml(
+[mesh]
+generator = "rectangle"
+width = 2
+height = 1
+origin = [-1, -0.5]
+cells = [4, 2]
+pattern = "crossed"
+[solid]
+plane = "stress"
+[[material]]
+law = "neo_hookean"
+density = 1000
+constants = { mu = 1e9, lambda = 2e9 }
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.geo"
+parameters = { lc = 0.1, n = 3 }
+[solid]
+element = "cst"
+plane = "stress"
+[[material]]
+region = "a"
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+axes = { bedding = [[[0, 0], [1, 0.1], [2, 0]], [[0, 1], [2, 1]]] }
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.5 }
+axes = { data = "theta" }
+[run]
+t_end = 1
+)toml"};
+
+/// Full names of the keys in a parsed deck, array positions left out.
+void collect(const toml::node& node, const std::string& path, std::set<std::string>& names) {
+    if (const auto* table = node.as_table()) {
+        for (const auto& [key, value] : *table) {
+            const std::string name = path.empty() ? std::string(key.str()) : path + "." + std::string(key.str());
+            names.insert(name);
+            collect(value, name, names);
+        }
+    } else if (const auto* array = node.as_array()) {
+        for (const toml::node& element : *array) collect(element, path, names);
+    }
+}
+
+std::string read(const std::string& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+TEST(DeckReference, EveryKey_IsAcceptedInSomeDeck) {
+    std::set<std::string> used;
+    for (const char* deck : full_decks) {
+        EXPECT_NO_THROW(parse_deck(deck, "full.toml"));
+        collect(toml::parse(deck), "", used);
+    }
+    std::vector<std::string> unused;
+    for (const std::string& key : deck_keys()) {
+        const bool also_in_boundary = key.starts_with("boundary.amplitude.") || key.starts_with("load.amplitude.");
+        const std::string bare = key.substr(key.rfind('.') + 1);
+        if (used.contains(key) || (also_in_boundary && (used.contains("load.amplitude." + bare) ||
+                                                        used.contains("boundary.amplitude." + bare)))) {
+            continue;
+        }
+        unused.push_back(key);
+    }
+    EXPECT_THAT(unused, IsEmpty());
+}
+
+/// With GNEISS_RENEW_DECK_REFERENCE set, writes docs/deck.md instead of comparing.
+TEST(DeckReference, Document_IsWhatTheSchemaSays) {
+    const std::string file = GNEISS_DECK_REFERENCE;
+    const std::string document = read(file);
+    const std::string renewed = renew_deck_reference(document);
+    if (std::getenv("GNEISS_RENEW_DECK_REFERENCE") != nullptr)
+        std::ofstream(file) << renewed;
+    else
+        EXPECT_EQ(document, renewed) << "renew it by GNEISS_RENEW_DECK_REFERENCE=1 test_deck";
+    for (const std::string& key : deck_keys())
+        EXPECT_THAT(renewed, HasSubstr(fmt::format("`{}`", key.substr(key.rfind('.') + 1))));
+}
+
+TEST(DeckReference, EveryKey_HasTypeAndMeaning) {
+    for (const deck::SectionDoc& section : deck::section_docs()) {
+        for (const deck::KeyDoc& key : section.keys) {
+            EXPECT_NE(key.type, "") << section.name << "." << key.name;
+            EXPECT_NE(key.meaning, "") << section.name << "." << key.name;
+            for (const deck::Word& word : key.words) EXPECT_NE(word.meaning, "") << word.name;
+        }
+    }
+}
+
+TEST(DeckReference, PlaceLost_Throws) {
+    EXPECT_THROW(renew_deck_reference("nothing"), InputError);
+    std::string document = renew_deck_reference(read(GNEISS_DECK_REFERENCE));
+    const std::string place = "<!-- keys of run -->";
+    document.replace(document.find(place), place.size(), "<!-- keys of rnu -->");
+    EXPECT_THROW(renew_deck_reference(document), InputError);
+}
+
+/// The ten-line deck and every other whole deck shown in the document must be accepted as printed.
+TEST(DeckReference, DecksInTheDocument_AreAccepted) {
+    const std::string document = read(GNEISS_DECK_REFERENCE);
+    const std::string opening = "```toml\n";
+    int wholes = 0;
+    for (std::size_t at = 0; (at = document.find(opening, at)) != std::string::npos;) {
+        at += opening.size();
+        const std::string text = document.substr(at, document.find("```", at) - at);
+        if (text.find("t_end") == std::string::npos) {
+            EXPECT_NO_THROW(toml::parse(text)) << text;
+        } else {
+            EXPECT_NO_THROW(parse_deck(text, "deck.md")) << text;
+            ++wholes;
+        }
+    }
+    EXPECT_GE(wholes, 2);
+}
+
+/// Every written default, read from a deck, gives the same options as leaving the key out would.
+TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
+    const auto defaults = [](const std::string& name) {
+        std::string text;
+        for (const deck::SectionDoc& section : deck::section_docs()) {
+            if (section.name != name) continue;
+            for (const deck::KeyDoc& key : section.keys) {
+                if (!key.default_text.empty() && key.default_text != "\"\"")
+                    text += key.name + " = " + key.default_text + "\n";
+            }
+        }
+        return text;
+    };
+    const std::string deck = "[mesh]\nfile = \"a.msh\"\n[solid]\nplane = \"stress\"\n" + defaults("solid") +
+                             "[[material]]\ndensity = 1\nconstants = { E = 1, nu = 0 }\nform = \"hypo\"\n" +
+                             "in_situ_stress = [0, 0, 0]\nviscosity = { shear = 0, bulk = 0 }\n[integrator]\n" +
+                             defaults("integrator") + "[run]\nt_end = 1\n" + defaults("run") + "[output]\n" +
+                             defaults("output");
+    const CaseOptions read = parse_deck(deck, "defaults.toml");
+    const SolidOptions solid;
+    EXPECT_EQ(read.solid.compt, solid.compt);
+    EXPECT_EQ(read.solid.thickness, solid.thickness);
+    EXPECT_EQ(read.solid.volumetric, solid.volumetric);
+    const IntegratorOptions integrator;
+    EXPECT_EQ(read.integrator.type, integrator.type);
+    EXPECT_EQ(read.integrator.safety, integrator.safety);
+    EXPECT_EQ(read.integrator.dt, integrator.dt);
+    EXPECT_EQ(read.integrator.lanczos, integrator.lanczos);
+    EXPECT_EQ(read.run.checkpoint, RunOptions{}.checkpoint);
+    EXPECT_EQ(read.run.mass_damping, RunOptions{}.mass_damping);
+    EXPECT_EQ(read.output.fields, OutputOptions{}.fields);
+    EXPECT_EQ(read.output.history, OutputOptions{}.history);
+    EXPECT_EQ(read.output.field_times, OutputOptions{}.field_times);
+}
+
+TEST(DeckListings, EveryTopic_HasEntriesWithMeanings) {
+    std::set<std::string> topics;
+    for (const Listing& listing : deck_listings()) {
+        topics.insert(listing.topic);
+        EXPECT_FALSE(listing.entries.empty()) << listing.topic;
+        for (const auto& entry : listing.entries) EXPECT_FALSE(entry.name.empty() || entry.meaning.empty());
+    }
+    for (const char* topic : {"elements", "materials", "integrators", "loads", "boundaries", "amplitudes"}) {
+        EXPECT_TRUE(topics.contains(topic)) << topic;
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
