@@ -178,5 +178,33 @@ TEST(AbsorbedWork, Step_BlockTimesMeanVelocity_WorksOnTheDisplacement) {
     EXPECT_DOUBLE_EQ(absorbed_work(blocks, Trial::of(from), Trial::of(to)), 9.5);
 }
 
+TEST(AbsorbedWork, Leapfrog_MassOnADashpot_LosesExactlyWhatIsAbsorbed) {
+    const double mass = 3, dt = 0.2;
+    const Damping::Block c{0, 2.0, 0.7, 3.0};
+    // v^{n+1/2} from (M/dt + C/2) v^{n+1/2} = (M/dt - C/2) v^{n-1/2}  [FORMULATION 5]
+    const double xx = mass / dt + c.xx / 2, yy = mass / dt + c.yy / 2, xy = c.xy / 2, det = xx * yy - xy * xy;
+    const auto next = [&](const Vec2<double>& v) {
+        const Vec2<double> right{(mass / dt - c.xx / 2) * v.x - xy * v.y, (mass / dt - c.yy / 2) * v.y - xy * v.x};
+        return Vec2<double>{(yy * right.x - xy * right.y) / det, (xx * right.y - xy * right.x) / det};
+    };
+    Vec2<double> before{4, -1}, after = next(before);
+    State from, to;
+    from.u = {0, 0};
+    double absorbed = 0;
+    const double kinetic_at_start = 0.5 * mass * dot(before, after);
+    for (int step = 0; step < 20; ++step) {
+        const Vec2<double> later = next(after);
+        from.v = {0.5 * (before.x + after.x), 0.5 * (before.y + after.y)};
+        to.v = {0.5 * (after.x + later.x), 0.5 * (after.y + later.y)};
+        to.u = {from.u[0] + dt * after.x, from.u[1] + dt * after.y};
+        absorbed += absorbed_work({&c, 1}, Trial::of(from), Trial::of(to));
+        before = after;
+        after = later;
+        from.u = to.u;
+    }
+    EXPECT_GT(absorbed, 0.9 * kinetic_at_start);
+    EXPECT_NEAR(absorbed + 0.5 * mass * dot(before, after), kinetic_at_start, round_off * kinetic_at_start);
+}
+
 }  // namespace
 }  // namespace gneiss
