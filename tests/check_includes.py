@@ -43,7 +43,7 @@ NOT_OURS = {"build", "results", "__pycache__"}  # and every folder whose name st
 README_DEPTH = 2  # src/mesh needs one, tests/unit/mesh does not: tests/unit/README.md speaks for it
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-STANDARD = re.compile(r"^[a-z0-9_]+$")  # <vector>, but not <fcntl.h>
+STANDARD = re.compile(r"^([a-z0-9_]+|[a-z]+intrin\.h)$")  # <vector> and intrinsics, but not <fcntl.h>
 
 
 def source_files(root):
