@@ -57,11 +57,12 @@ say "${#missing[@]} of ${#packages[@]} are missing: ${missing[*]}"
 
 as_root=()
 if [[ $EUID -ne 0 ]]; then
-    command -v sudo >/dev/null || fail "neither root nor sudo. As root, run: apt-get update && apt-get install \
---no-install-recommends ${missing[*]}"
     as_root=(sudo)
-    # Nobody can type a password into a job without a terminal: fail with sudo's own message instead of waiting.
+    # Nobody can type a password into a job without a terminal: fail instead of waiting.
     [[ -t 0 ]] || as_root+=(-n)
+    if ! command -v sudo >/dev/null || ! "${as_root[@]}" true; then
+        fail "neither root nor sudo. As root, run: apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    fi
 fi
 
 log=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX.log")
@@ -96,13 +97,15 @@ apt_failed() {
 }
 
 say "fetching the package lists (apt-get update)"
-apt update || apt_failed "apt-get update failed"
+# Not the end: one of many archives of a machine may be out of order, or yesterday's lists may do.
+apt update || say "apt-get update failed; going on with the lists at hand"
 
 unknown=()
 for package in "${missing[@]}"; do
     apt-cache show --no-all-versions "$package" >/dev/null 2>&1 || unknown+=("$package")
 done
-[[ ${#unknown[@]} -eq 0 ]] || fail "this system's archive has no ${unknown[*]}; gneiss is developed on Debian 12"
+[[ ${#unknown[@]} -eq 0 ]] || apt_failed "apt's lists do not have ${unknown[*]}. Is the archive within reach? gneiss is
+developed on Debian 12"
 
 say "installing (apt-get install --no-install-recommends); on a bare machine about 0.7 GB to fetch, several minutes"
 apt install --no-install-recommends "${missing[@]}" || apt_failed "apt-get install failed"
