@@ -101,7 +101,6 @@ TEST_F(CsvOutput, WhileRunning_FileGrowsByWholeRows) {
 TEST_F(CsvOutput, AfterTheInterval_RowReachesTheFile) {
     CsvSeries series(path, columns);
     add(series, 1, 2, 3);
-    EXPECT_EQ(contents(path), header);
     std::this_thread::sleep_for(CsvSeries::flush_interval);
     series.flush_if_due();
     EXPECT_EQ(contents(path), header + "1,2,3\n");
