@@ -27,7 +27,8 @@ struct Spec {
 inline std::string written(double value) { return fmt::format("{}", value); }
 inline std::string written(int value) { return fmt::format("{}", value); }
 inline std::string written(bool value) { return value ? "true" : "false"; }
-inline std::string written(const std::string& value) { return fmt::format("\"{}\"", value); }
+/// Empty for an empty string, which a deck expresses by leaving the key out.
+inline std::string written(const std::string& value) { return value.empty() ? "" : fmt::format("\"{}\"", value); }
 inline std::string written(const Formula& value) {
     return value.constant ? value.text : fmt::format("\"{}\"", value.text);
 }

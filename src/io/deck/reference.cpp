@@ -32,12 +32,10 @@ std::string conditions(const std::vector<Condition>& list) {
 }
 
 std::string default_cell(const KeyDoc& key) {
-    std::string text = key.required               ? "required"
-                       : key.default_text.empty() ? "–"
-                                                  : fmt::format("`{}`", key.default_text);
-    if (!key.or_else.empty()) text += fmt::format(" unless `{}`", key.or_else);
-    if (!key.needed_for.empty()) text += fmt::format("; required for {}", conditions(key.needed_for));
-    return text;
+    if (!key.or_else.empty()) return fmt::format("required unless `{}`", key.or_else);
+    if (key.required) return "required";
+    if (!key.needed_for.empty()) return fmt::format("required for {}", conditions(key.needed_for));
+    return key.default_text.empty() ? "–" : fmt::format("`{}`", key.default_text);
 }
 
 std::string range_cell(const KeyDoc& key) {

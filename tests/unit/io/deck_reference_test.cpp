@@ -221,8 +221,7 @@ TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
         for (const deck::SectionDoc& section : deck::section_docs()) {
             if (section.name != name) continue;
             for (const deck::KeyDoc& key : section.keys) {
-                if (!key.default_text.empty() && key.default_text != "\"\"")
-                    text += key.name + " = " + key.default_text + "\n";
+                if (!key.default_text.empty()) text += key.name + " = " + key.default_text + "\n";
             }
         }
         return text;
