@@ -14,7 +14,7 @@ struct MunjizaHyperelastic {
     static constexpr std::size_t n_internal = direct ? WorkMeter::n_internal : 0;
     static constexpr std::size_t n_history = direct ? WorkMeter::n_history : 0;
     static constexpr bool has_stored_energy = !direct;
-    static constexpr bool conservative = !direct;
+    static constexpr bool offers_centre = direct;  ///< `centre` is not the gradient of an energy either
     static constexpr bool uniform_q = true;  ///< q is the same in all sub-triangles of a composite
 
     template <class T>

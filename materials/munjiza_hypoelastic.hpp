@@ -73,7 +73,7 @@ struct MunjizaHypoelastic {
     static constexpr std::size_t n_internal = 5;
     static constexpr std::size_t n_history = direct ? 4 + WorkMeter::n_history : 4;
     static constexpr bool has_stored_energy = false;
-    static constexpr bool conservative = !direct;  ///< as long as the moduli are constant
+    static constexpr bool offers_centre = direct;
     static constexpr bool uniform_q = true;
 
     template <class T>

@@ -18,7 +18,7 @@ template <bool plane_stress>
 struct NeoHookean {
     static constexpr std::size_t n_internal = 0, n_history = 0;
     static constexpr bool has_stored_energy = true;
-    static constexpr bool conservative = true;
+    static constexpr bool offers_centre = false;
     static constexpr bool uniform_q = false;
 
     template <class T>

@@ -91,6 +91,9 @@ public:
     /// @param[out] rate  overwritten, shape (n_internal)
     virtual void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const = 0;
 
+    /// A length that displacements can be measured against, m: the shortest edge. Scales of differences and tolerances.
+    virtual double smallest_length() const = 0;
+
     /// Exact tangents, or nullptr where a system has none.
     virtual const Tangent* tangent() const { return nullptr; }
 

@@ -1,0 +1,306 @@
+#include "integrators/central_difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "integrators/lanczos.hpp"
+
+namespace gneiss {
+namespace {
+
+// How often the bound is looked at: twice as rarely while it stands still, twice as often when it moves. A change of the
+// step by the safety factor takes far longer than this in any resolved motion.
+constexpr double first_interval = 16, shortest_interval = 4, longest_interval = 512;
+constexpr double still = 0.005, moving = 0.02;  // relative change of the critical step between two looks
+
+}  // namespace
+
+void CentralDifference::Options::validate() const {
+    std::vector<Problem> problems;
+    if (!(safety > 0 && safety <= 1))
+        problems.push_back({"integrator.safety", fmt::format("given {}, must be in (0, 1]", safety)});
+    if (!(dt >= 0 && std::isfinite(dt)))
+        problems.push_back({"integrator.dt", fmt::format("given {} s, must be >= 0 s", dt)});
+    if (!problems.empty()) throw InputError(problems);
+}
+
+CentralDifference::CentralDifference(const Options& options) : options_(options) { options_.validate(); }
+
+double CentralDifference::critical_time_step(const FrequencyBound& bound) {
+    return 2 / (bound.damping_rate + std::hypot(bound.damping_rate, bound.omega));
+}
+
+void CentralDifference::allocate(const SemiDiscrete& system) {
+    const Layout layout = system.layout();
+    const auto mass = system.lumped_mass();
+    inverse_mass_.resize(layout.n_dof);
+    for (std::size_t i = 0; i < layout.n_dof; ++i) inverse_mass_[i] = 1 / mass[i];
+    a_.assign(layout.n_dof, 0.0);
+    v_half_.assign(system.force_depends_on_velocity() ? layout.n_dof : 0, 0.0);
+    next_.u.assign(layout.n_dof, 0.0);
+    next_.v.assign(layout.n_dof, 0.0);
+    next_.z.assign(layout.n_internal, 0.0);
+    next_.history.assign(layout.n_history, 0.0);
+    const auto constraints = system.constraints();
+    absorbing_.clear();
+    for (const Damping::Block& block : system.damping().blocks) {
+        AbsorbingNode node{block, {}, {}, false, false, 0, 0};
+        for (std::size_t k = 0; k < constraints.size(); ++k) {
+            if (constraints[k].dof / 2 != static_cast<std::size_t>(block.node)) continue;
+            (constraints[k].dof % 2 == 0 ? node.x_prescribed : node.y_prescribed) = true;
+            (constraints[k].dof % 2 == 0 ? node.x_constraint : node.y_constraint) = k;
+        }
+        absorbing_.push_back(node);
+    }
+    const std::size_t n = constraints.size();
+    for (auto* values : {&prescribed_, &rate_, &net_, &net_before_, &reactions_, &half_velocity_}) values->assign(n, 0.0);
+}
+
+void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& state) {
+    FrequencyBound bound = system.frequency_bound(state);
+    if (options_.lanczos) bound.omega = std::min(bound.omega, lanczos_frequency_bound(system, state));
+    const double before = critical_;
+    critical_ = critical_time_step(bound);
+    if (!(critical_ > 0 && std::isfinite(critical_)))
+        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}", state.t,
+                                           bound.omega, bound.damping_rate));
+    const double change = std::abs(critical_ - before) / critical_;
+    if (bound_interval_ == 0)
+        bound_interval_ = first_interval;
+    else if (change < still)
+        bound_interval_ = std::min(2 * bound_interval_, longest_interval);
+    else if (change > moving)
+        bound_interval_ = std::max(bound_interval_ / 2, shortest_interval);
+    steps_since_bound_ = 0;
+}
+
+void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
+    if (why != StartReason::reinitialise) {
+        allocate(system);
+        bound_interval_ = 0;
+    }
+    evaluate_bound(system, state);
+    if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+
+    // prescribed velocities hold from the start; prescribed displacements say where the node is, not how fast it moves
+    const auto constraints = system.constraints();
+    system.constraint_values(state.t, state.last_event, prescribed_);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        if (constraints[k].kind == Constraint::Kind::velocity) state.v[constraints[k].dof] = prescribed_[k];
+        half_velocity_[k] = state.v[constraints[k].dof];
+    }
+    system.force(state, Trial::of(state), a_);
+    for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[constraints[k].dof];
+    subtract_damping(system, state.v, net_);
+    const double c = system.damping().mass_proportional;
+    for (std::size_t i = 0; i < a_.size(); ++i) a_[i] = inverse_mass_[i] * a_[i] - c * state.v[i];
+    for (const Damping::Block& block : system.damping().blocks) {
+        const auto x = 2 * static_cast<std::size_t>(block.node), y = x + 1;
+        a_[x] -= inverse_mass_[x] * (block.xx * state.v[x] + block.xy * state.v[y]);
+        a_[y] -= inverse_mass_[y] * (block.xy * state.v[x] + block.yy * state.v[y]);
+    }
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        a_[constraints[k].dof] = 0;
+        reactions_[k] = -net_[k];
+    }
+}
+
+double CentralDifference::choose_step(double remaining) const {
+    const double limit = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+    // equal steps up to the next stop; a remainder of round-off is no step of its own
+    constexpr double round_off = 1e-9;
+    return remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
+}
+
+StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, double t_stop) {
+    if (steps_since_bound_ >= bound_interval_) evaluate_bound(system, state);
+    const double remaining = t_stop - state.t;
+    const double dt = choose_step(remaining);
+    if (options_.dt > critical_)
+        throw RecoverableError(fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s",
+                                           options_.dt, critical_, state.t));
+
+    dt_before_ = dt_;
+    dt_ = dt;
+    next_.t = dt == remaining ? t_stop : state.t + dt;
+    next_.last_event = state.last_event;
+    kick_and_drift(system, state, dt);
+    if (!next_.z.empty())
+        system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, a_, next_.z, next_.history);
+    else
+        system.force(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, a_);
+    kick(system, state, dt);
+    system.add_path_energies(state, next_);
+    for (std::size_t k = 0; k < net_.size(); ++k) {
+        // what the support adds: the change of this degree's kinetic energy that the other forces do not explain
+        const std::size_t dof = system.constraints()[k].dof;
+        const double kinetic = 0.5 * system.lumped_mass()[dof] * (next_.v[dof] * next_.v[dof] - state.v[dof] * state.v[dof]);
+        next_.path.support_work += kinetic - 0.5 * (net_[k] + net_before_[k]) * (next_.u[dof] - state.u[dof]);
+    }
+    std::swap(state, next_);
+    ++steps_since_bound_;
+    return {state.t, dt, 0, 1};
+}
+
+void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& state, double dt) {
+    const double half = 0.5 * dt;
+    const double *u = state.u.data(), *v = state.v.data(), *a = a_.data();
+    double *u_next = next_.u.data(), *v_next = next_.v.data();
+    parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const double v_half = v[i] + half * a[i];
+            v_next[i] = v_half;
+            u_next[i] = u[i] + dt * v_half;
+        }
+    });
+    prescribe(system, state, dt);
+    if (!v_half_.empty()) {
+        // forces that depend on velocity see v(n+1/2) + dt/2 a(n), of order 2 at t(n+1)
+        double* v_half = v_half_.data();
+        parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                v_half[i] = v_next[i];
+                v_next[i] += half * a[i];
+            }
+        });
+    }
+}
+
+void CentralDifference::prescribe(const SemiDiscrete& system, const State& state, double dt) {
+    const auto constraints = system.constraints();
+    if (constraints.empty()) return;
+    system.constraint_values(next_.t, next_.last_event, prescribed_);
+    system.constraint_values(state.t + 0.5 * dt, next_.last_event, rate_);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const std::size_t dof = constraints[k].dof;
+        if (constraints[k].kind == Constraint::Kind::displacement) {
+            next_.u[dof] = prescribed_[k];
+            next_.v[dof] = (next_.u[dof] - state.u[dof]) / dt;
+        } else {
+            next_.v[dof] = rate_[k];
+            next_.u[dof] = state.u[dof] + dt * rate_[k];
+        }
+        rate_[k] = next_.v[dof];
+    }
+}
+
+void CentralDifference::kick(const SemiDiscrete& system, const State& state, double dt) {
+    const double half = 0.5 * dt, c = system.damping().mass_proportional, inverse_damping = 1 / (1 + half * c);
+    const double* v_half = v_half_.empty() ? next_.v.data() : v_half_.data();
+    const auto constraints = system.constraints();
+    net_before_.swap(net_);
+    for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[constraints[k].dof];  // f, before it is overwritten
+    for (AbsorbingNode& node : absorbing_) {
+        const auto x = 2 * static_cast<std::size_t>(node.block.node);
+        node.v_half = {v_half[x], v_half[x + 1]};
+        node.f = {a_[x], a_[x + 1]};
+    }
+
+    const double* inverse_mass = inverse_mass_.data();
+    double *v = next_.v.data(), *a = a_.data();
+    parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const double force_per_mass = inverse_mass[i] * a[i];
+            v[i] = (v_half[i] + half * force_per_mass) * inverse_damping;
+            a[i] = force_per_mass - c * v[i];
+        }
+    });
+    settle_constraints(system, dt);
+    for (const AbsorbingNode& node : absorbing_) {
+        const auto x = 2 * static_cast<std::size_t>(node.block.node), y = x + 1;
+        const Damping::Block& block = node.block;
+        const double to_rate_x = half * inverse_mass[x], to_rate_y = half * inverse_mass[y];
+        const double xx = 1 + half * c + to_rate_x * block.xx, yy = 1 + half * c + to_rate_y * block.yy;
+        const double xy = to_rate_x * block.xy, yx = to_rate_y * block.xy;
+        const double right_x = node.v_half.x + to_rate_x * node.f.x, right_y = node.v_half.y + to_rate_y * node.f.y;
+        if (!node.x_prescribed && !node.y_prescribed) {
+            const double determinant = xx * yy - xy * yx;
+            v[x] = (yy * right_x - xy * right_y) / determinant;
+            v[y] = (xx * right_y - yx * right_x) / determinant;
+        } else if (!node.x_prescribed) {
+            v[x] = (right_x - xy * v[y]) / xx;
+        } else if (!node.y_prescribed) {
+            v[y] = (right_y - yx * v[x]) / yy;
+        }
+        if (!node.x_prescribed)
+            a[x] = inverse_mass[x] * (node.f.x - block.xx * v[x] - block.xy * v[y]) - c * v[x];
+        if (!node.y_prescribed)
+            a[y] = inverse_mass[y] * (node.f.y - block.xy * v[x] - block.yy * v[y]) - c * v[y];
+    }
+    subtract_damping(system, next_.v, net_);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const std::size_t dof = constraints[k].dof;
+        reactions_[k] = (next_.v[dof] - state.v[dof]) / (dt * inverse_mass_[dof]) - net_[k];
+    }
+}
+
+void CentralDifference::settle_constraints(const SemiDiscrete& system, double dt) {
+    const auto constraints = system.constraints();
+    if (constraints.empty()) return;
+    system.constraint_values(next_.t, next_.last_event, prescribed_);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const std::size_t dof = constraints[k].dof;
+        // a prescribed displacement has the velocity that its last two steps extrapolate to, of order 2
+        next_.v[dof] = constraints[k].kind == Constraint::Kind::velocity
+                           ? prescribed_[k]
+                           : rate_[k] + (rate_[k] - half_velocity_[k]) * dt / (dt + dt_before_);
+        a_[dof] = 0;
+    }
+    half_velocity_.swap(rate_);
+}
+
+void CentralDifference::subtract_damping(const SemiDiscrete& system, std::span<const double> v,
+                                         std::vector<double>& net) const {
+    const auto constraints = system.constraints();
+    const double c = system.damping().mass_proportional;
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+        net[k] -= c * system.lumped_mass()[constraints[k].dof] * v[constraints[k].dof];
+    for (const AbsorbingNode& node : absorbing_) {
+        const auto x = 2 * static_cast<std::size_t>(node.block.node), y = x + 1;
+        if (node.x_prescribed) net[node.x_constraint] -= node.block.xx * v[x] + node.block.xy * v[y];
+        if (node.y_prescribed) net[node.y_constraint] -= node.block.xy * v[x] + node.block.yy * v[y];
+    }
+}
+
+double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State& state) const {
+    const auto mass = system.lumped_mass();
+    const double quarter = 0.25 * dt_ * dt_;
+    return 0.5 * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
+               double sum = 0;
+               for (std::size_t i = first; i < last; ++i)
+                   sum += mass[i] * (state.v[i] * state.v[i] - quarter * a_[i] * a_[i]);
+               return sum;
+           });
+}
+
+IntegratorMemory CentralDifference::save() const {
+    return {{"acceleration", a_},
+            {"half_velocity", half_velocity_},
+            {"net_force", net_},
+            {"reactions", reactions_},
+            {"step", {dt_, critical_, bound_interval_, steps_since_bound_}}};
+}
+
+void CentralDifference::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
+    allocate(system);
+    const auto take = [&memory](const char* name, std::size_t size) -> const std::vector<double>& {
+        const auto found = memory.find(name);
+        if (found == memory.end() || found->second.size() != size)
+            throw InputError("checkpoint", fmt::format("central_difference: `{}` is missing or has not {} values", name, size));
+        return found->second;
+    };
+    a_ = take("acceleration", a_.size());
+    half_velocity_ = take("half_velocity", half_velocity_.size());
+    net_ = take("net_force", net_.size());
+    reactions_ = take("reactions", reactions_.size());
+    const std::vector<double>& step = take("step", 4);
+    dt_ = step[0];
+    critical_ = step[1];
+    bound_interval_ = step[2];
+    steps_since_bound_ = step[3];
+}
+
+}  // namespace gneiss

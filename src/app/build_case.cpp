@@ -1,0 +1,76 @@
+#include "app/build_case.hpp"
+
+#include "base/errors.hpp"
+#include "integrators/central_difference.hpp"
+#include "mesh/make_mesh.hpp"
+#include "model/impedance.hpp"
+#include "model/initial_conditions.hpp"
+#include "model/loads.hpp"
+#include "model/make_blocks.hpp"
+
+namespace gneiss {
+namespace {
+
+/// Runs one step of the building and keeps its problems, so that all are reported together.
+template <class Step>
+void collect(std::vector<Problem>& problems, Step step) {
+    try {
+        step();
+    } catch (const InputError& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+}
+
+/// Impedances of the elements at an absorbing boundary, from the law's stiffness at the start.
+std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOptions& options,
+                                              const std::vector<std::unique_ptr<ElementBlock>>& blocks) {
+    const std::vector<BoundaryEdge> edges = absorbing_edges(mesh, options.boundaries);
+    if (edges.empty()) return {};
+    std::vector<PlaneStiffness> stiffness(mesh.n_elements());
+    for (const auto& block : blocks)
+        for (std::size_t local = 0; local < block->n_elements(); ++local)
+            stiffness[static_cast<std::size_t>(block->element(local))] =
+                plane_stiffness(block->tangent_constants(local), block->axis_angle(local), block->density());
+    return absorbing_blocks(
+        mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; }, options.solid.thickness);
+}
+
+}  // namespace
+
+Case build_case(CaseOptions options) {
+    Case built;
+    MeshReport report;
+    built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
+    built.warnings = std::move(report.warnings);
+
+    std::vector<Problem> problems;
+    SolidSystem::Parts parts;
+    collect(problems, [&] { parts.blocks = make_blocks(built.mesh, options.solid, options.materials); });
+    collect(problems, [&] { parts.terms = make_loads(built.mesh, options.loads, options.solid.thickness); });
+    collect(problems, [&] { parts.constraints = make_constraints(built.mesh, options.boundaries); });
+    collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
+    collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
+    parts.damping.mass_proportional = options.run.mass_damping;
+    const CentralDifference::Options central{options.integrator.safety, options.integrator.dt, options.integrator.lanczos};
+    collect(problems, [&] { built.integrator = std::make_unique<CentralDifference>(central); });
+    if (!problems.empty()) throw InputError(problems);
+
+    built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
+    built.options = std::move(options);
+    return built;
+}
+
+double memory_estimate(const Case& built) {
+    const Layout layout = built.system->layout();
+    // u, v, mass, inverse mass, a, next u, v, workspace; z and history twice
+    constexpr double nodal_vectors = 9, memory_vectors = 2;
+    double bytes = (nodal_vectors * static_cast<double>(layout.n_dof) +
+                    memory_vectors * static_cast<double>(layout.n_internal + layout.n_history)) * sizeof(double);
+    for (const auto& block : built.system->elements().blocks())
+        bytes += static_cast<double>(block->bytes_per_element()) * static_cast<double>(block->n_elements());
+    bytes += static_cast<double>(built.mesh.n_elements()) * (built.mesh.nodes_per_element() * 4.0 + 12.0) +
+             static_cast<double>(built.mesh.n_nodes()) * 24.0;
+    return bytes;
+}
+
+}  // namespace gneiss

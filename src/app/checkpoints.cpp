@@ -1,0 +1,80 @@
+#include "app/checkpoints.hpp"
+
+#include <fmt/format.h>
+#include <string_view>
+
+#include "base/errors.hpp"
+#include "io/output/checkpoint.hpp"
+#include "io/output/fingerprint.hpp"
+
+namespace gneiss {
+namespace {
+
+using Vector = std::vector<double>;
+
+/// The same mesh in the same numbering.
+std::string mesh_fingerprint(const Mesh& mesh) {
+    const auto bytes = [](const auto& values) {
+        return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+    };
+    return fmt::format("{:016x}", fingerprint(bytes(mesh.connectivity), fingerprint(bytes(mesh.nodes))));
+}
+
+/// Members of PathEnergies in a fixed order.
+auto members(PathEnergies& path) {
+    return std::array{&path.external_work, &path.support_work, &path.damping,  &path.viscous,
+                      &path.absorbing,     &path.friction,     &path.fracture, &path.viscous_power};
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& path, const std::string& deck_fingerprint, const Case& built,
+                     const State& state, const RunProgress& progress) {
+    Checkpoint checkpoint(deck_fingerprint);
+    checkpoint.set("mesh", mesh_fingerprint(built.mesh));
+    checkpoint.set("step", static_cast<std::int64_t>(progress.step));
+    checkpoint.set("initial_energy", progress.initial_energy);
+    checkpoint.set("state.t", state.t);
+    checkpoint.set("state.last_event", state.last_event);
+    checkpoint.set("state.u", state.u);
+    checkpoint.set("state.v", state.v);
+    checkpoint.set("state.z", state.z);
+    checkpoint.set("state.history", state.history);
+    PathEnergies energies = state.path;
+    Vector values;
+    for (const double* member : members(energies)) values.push_back(*member);
+    checkpoint.set("state.path", values);
+    checkpoint.set("integrator", built.integrator->name());
+    for (const auto& [name, memory] : built.integrator->save()) checkpoint.set("integrator." + name, memory);
+    checkpoint.save(path);
+}
+
+std::string load_checkpoint(const std::filesystem::path& path, const Case& built, State& state, RunProgress& progress) {
+    const Checkpoint checkpoint = Checkpoint::load(path);
+    if (checkpoint.get<std::string>("mesh") != mesh_fingerprint(built.mesh))
+        throw InputError(path.string(), "was written for another mesh than the deck gives");
+    if (checkpoint.get<std::string>("integrator") != built.integrator->name())
+        throw InputError(path.string(), fmt::format("was written by integrator `{}`, the deck has `{}`",
+                                                    checkpoint.get<std::string>("integrator"), built.integrator->name()));
+    const Layout layout = built.system->layout();
+    progress.step = static_cast<std::size_t>(checkpoint.get<std::int64_t>("step"));
+    progress.initial_energy = checkpoint.get<double>("initial_energy");
+    state.t = checkpoint.get<double>("state.t");
+    state.last_event = checkpoint.get<double>("state.last_event");
+    state.u = checkpoint.get<Vector>("state.u", layout.n_dof);
+    state.v = checkpoint.get<Vector>("state.v", layout.n_dof);
+    state.z = checkpoint.get<Vector>("state.z", layout.n_internal);
+    state.history = checkpoint.get<Vector>("state.history", layout.n_history);
+    const auto targets = members(state.path);
+    const Vector& values = checkpoint.get<Vector>("state.path", targets.size());
+    for (std::size_t k = 0; k < targets.size(); ++k) *targets[k] = values[k];
+
+    IntegratorMemory memory;
+    constexpr std::string_view prefix = "integrator.";
+    for (const std::string& name : checkpoint.names())
+        if (name.starts_with(prefix)) memory[name.substr(prefix.size())] = checkpoint.get<Vector>(name);
+    built.integrator->load(*built.system, state, memory);
+    return checkpoint.deck_fingerprint();
+}
+
+}  // namespace gneiss

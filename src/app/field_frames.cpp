@@ -1,0 +1,54 @@
+#include "app/field_frames.hpp"
+
+#include <cmath>
+
+#include "mesh/composite.hpp"
+
+namespace gneiss {
+namespace {
+
+FieldSeries make_series(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time) {
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    std::vector<std::int32_t> elements, regions;
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
+        const std::int32_t* nodes = mesh.element(e);
+        const auto add = [&](const SubTriangle& triangle) {
+            triangles.push_back({nodes[triangle[0]], nodes[triangle[1]], nodes[triangle[2]]});
+            elements.push_back(static_cast<std::int32_t>(e));
+            regions.push_back(mesh.region[e]);
+        };
+        if (mesh.kind == ElementKind::cst)
+            add({0, 1, 2});
+        else
+            for (const SubTriangle& sub : composite_sub_triangles) add(counter_clockwise(sub));
+    }
+    return FieldSeries(folder, {mesh.nodes, triangles, {{"element", elements}, {"region", regions}}}, restart_time);
+}
+
+}  // namespace
+
+FieldFrames::FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time)
+    : series_(make_series(folder, mesh, restart_time)) {}
+
+void FieldFrames::write(const SolidSystem& system, const State& state, std::size_t step) {
+    const std::vector<PointFields> points = system.point_fields(state);
+    std::vector<double> speed(state.v.size() / 2), cauchy, munjiza, stretch, alpha, beta;
+    for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::hypot(state.v[2 * i], state.v[2 * i + 1]);
+    for (const PointFields& point : points) {
+        cauchy.insert(cauchy.end(), point.cauchy.begin(), point.cauchy.end());
+        munjiza.insert(munjiza.end(), point.munjiza.begin(), point.munjiza.end());
+        stretch.insert(stretch.end(), point.stretch.begin(), point.stretch.end());
+        alpha.insert(alpha.end(), point.alpha.begin(), point.alpha.end());
+        beta.insert(beta.end(), point.beta.begin(), point.beta.end());
+    }
+    const std::vector<std::string> components{"v", "alpha", "beta", "psi"};
+    series_.write(state.t, static_cast<std::int64_t>(step),
+                  {{{"displacement", state.u, 2}, {"velocity", state.v, 2}, {"speed", speed}},
+                   {{"cauchy_stress", cauchy, 3, {"xx", "yy", "xy"}},
+                    {"munjiza_stress", munjiza, 4, components},
+                    {"stretch", stretch, 4, components},
+                    {"axis_alpha", alpha, 2},
+                    {"axis_beta", beta, 2}}});
+}
+
+}  // namespace gneiss

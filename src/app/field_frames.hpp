@@ -1,0 +1,25 @@
+#pragma once
+// What a .vtu frame of a run holds.
+
+#include <filesystem>
+#include <optional>
+
+#include "io/output/field_series.hpp"
+#include "model/solid_system.hpp"
+
+namespace gneiss {
+
+/// At nodes: displacement, velocity, speed. In every sub-triangle: Cauchy and Munjiza stress, stretches, current axes;
+/// number of the element and of its region.
+class FieldFrames {
+public:
+    /// @param restart_time  as in FieldSeries
+    FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time);
+
+    void write(const SolidSystem& system, const State& state, std::size_t step);
+
+private:
+    FieldSeries series_;
+};
+
+}  // namespace gneiss

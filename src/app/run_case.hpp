@@ -1,0 +1,30 @@
+#pragma once
+// `gneiss run`: one case from its deck to its results.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gneiss {
+
+/// Exit codes of the program.
+namespace exit_code {
+inline constexpr int done = 0, bad_input = 2, failed = 3;
+}
+
+struct RunArguments {
+    std::filesystem::path deck;
+    std::filesystem::path out;  ///< empty: results/NAME, NAME being the deck's without its ending
+    std::vector<std::string> set;
+    int threads = 0;            ///< 0: as many as there are cores
+    std::optional<std::filesystem::path> restart;
+    bool quiet = false;
+};
+
+/// Results stand in `out`, however the run ends: summary.json says how.
+/// @return exit code: 0 done, 3 failed, 130 or 143 interrupted
+/// @throws InputError, IoError before the first step
+int run_case(const RunArguments& arguments);
+
+}  // namespace gneiss

@@ -1,0 +1,87 @@
+#include "app/tables.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+
+std::vector<CsvColumn> history_columns() {
+    std::vector<CsvColumn> columns{{"t", "s"}, {"step"}, {"dt", "s"}};
+    for (const char* energy : {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "external_work",
+                               "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing",
+                               "dissipated_friction", "dissipated_fracture", "left_over"})
+        columns.push_back({energy, "J"});
+    columns.push_back({"balance_error"});
+    return columns;
+}
+
+std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger) {
+    const StoredEnergies& stored = ledger.stored;
+    const PathEnergies& path = ledger.path;
+    return {t, static_cast<double>(step), dt, ledger.kinetic, stored.material, stored.stress_power, stored.contact,
+            stored.joints, path.external_work, path.support_work, path.damping, path.viscous, path.absorbing,
+            path.friction, path.fracture, ledger.left_over(), ledger.balance_error()};
+}
+
+ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) {
+    std::vector<Problem> problems;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const ProbeOptions& given = probes[i];
+        try {
+            Probe probe{given.name, locate(mesh, given.at), given.about.has_value(), {1, 0}};
+            if (given.about) {
+                const double dx = given.at[0] - (*given.about)[0], dy = given.at[1] - (*given.about)[1];
+                const double length = std::hypot(dx, dy);
+                if (!(length > 0)) throw InputError("", "stands at the centre it is to be seen from: no radial direction");
+                probe.direction = {dx / length, dy / length};
+            }
+            probes_.push_back(std::move(probe));
+        } catch (const InputError& error) {
+            for (const Problem& problem : error.problems())
+                problems.push_back({fmt::format("output.probes[{}] `{}`", i, given.name), problem.message});
+        }
+    }
+    if (!problems.empty()) throw InputError(problems);
+}
+
+std::vector<CsvColumn> ProbeTable::columns() const {
+    std::vector<CsvColumn> columns{{"t", "s"}};
+    for (const Probe& probe : probes_) {
+        const auto add = [&](const char* quantity, const char* unit) { columns.push_back({probe.name + "." + quantity, unit}); };
+        for (const char* name : {"u_x", "u_y"}) add(name, "m");
+        for (const char* name : {"v_x", "v_y"}) add(name, "m/s");
+        for (const char* name : {"sigma_xx", "sigma_yy", "sigma_xy"}) add(name, "Pa");
+        if (!probe.radial) continue;
+        for (const char* name : {"u_r", "u_t"}) add(name, "m");
+        for (const char* name : {"v_r", "v_t"}) add(name, "m/s");
+        for (const char* name : {"sigma_rr", "sigma_tt", "sigma_rt"}) add(name, "Pa");
+    }
+    return columns;
+}
+
+std::vector<double> ProbeTable::row(const SolidSystem& system, const State& state) const {
+    std::vector<double> row{state.t};
+    const auto at = [](const std::vector<double>& nodal, const MeshPoint& point) {
+        std::array<double, 2> value{0, 0};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t c = 0; c < 2; ++c)
+                value[c] += point.weights[k] * nodal[2 * static_cast<std::size_t>(point.nodes[k]) + c];
+        return value;
+    };
+    for (const Probe& probe : probes_) {
+        const auto u = at(state.u, probe.point), v = at(state.v, probe.point);
+        const auto sigma = system.point_fields(state, probe.point.element)[static_cast<std::size_t>(probe.point.sub_triangle)].cauchy;
+        row.insert(row.end(), {u[0], u[1], v[0], v[1], sigma[0], sigma[1], sigma[2]});
+        if (!probe.radial) continue;
+        const double c = probe.direction[0], s = probe.direction[1];
+        row.insert(row.end(), {c * u[0] + s * u[1], c * u[1] - s * u[0], c * v[0] + s * v[1], c * v[1] - s * v[0],
+                               c * c * sigma[0] + s * s * sigma[1] + 2 * s * c * sigma[2],
+                               s * s * sigma[0] + c * c * sigma[1] - 2 * s * c * sigma[2],
+                               s * c * (sigma[1] - sigma[0]) + (c * c - s * s) * sigma[2]});
+    }
+    return row;
+}
+
+}  // namespace gneiss

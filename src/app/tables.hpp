@@ -1,0 +1,41 @@
+#pragma once
+// What history.csv and probes.csv hold: columns and rows.
+
+#include <vector>
+
+#include "io/output/csv_series.hpp"
+#include "mesh/locate.hpp"
+#include "model/energy_ledger.hpp"
+#include "model/options.hpp"
+#include "model/solid_system.hpp"
+
+namespace gneiss {
+
+/// The columns of history.csv.
+std::vector<CsvColumn> history_columns();
+/// One row of it, in the order of history_columns().
+std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger);
+
+/// Probes: points that keep their place in the material.
+class ProbeTable {
+public:
+    /// @throws InputError with every probe that lies outside the solid
+    ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes);
+
+    bool empty() const { return probes_.empty(); }
+    /// t, then for each probe u_x, u_y, v_x, v_y and the Cauchy stress of its sub-triangle; with a centre also u_r, u_t,
+    /// v_r, v_t and the stresses in the same directions: r from the centre to the reference position, t at +90 degrees.
+    std::vector<CsvColumn> columns() const;
+    std::vector<double> row(const SolidSystem& system, const State& state) const;
+
+private:
+    struct Probe {
+        std::string name;
+        MeshPoint point;
+        bool radial;
+        std::array<double, 2> direction;  ///< r, unit vector
+    };
+    std::vector<Probe> probes_;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,107 @@
+#pragma once
+// All elements of one kind, one law and one set of constants, stored by packs. One virtual call handles a run of packs;
+// there is none per element.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/pack.hpp"
+#include "materials/elastic_constants.hpp"
+#include "materials/viscous_stress.hpp"
+#include "mesh/mesh.hpp"
+
+namespace gneiss {
+
+/// A vector whose data can be loaded as packs.
+using PackVector = std::vector<double, xsimd::aligned_allocator<double, pack_alignment>>;
+
+/// What a block is made from, beside its law.
+struct BlockGeometry {
+    std::vector<std::int32_t> elements;     ///< numbers in the mesh, ascending
+    std::vector<double> axis_angle;         ///< per element of the block: direction of alpha, rad
+    std::vector<std::array<double, 3>> in_situ_stress;  ///< per element, Cauchy xx, yy, xy, Pa; empty: none
+    double thickness = 1;                   ///< m
+    double density = 0;                     ///< kg/m3
+    ViscousStress viscosity;
+};
+
+/// Values at one sub-triangle, for output.
+struct PointFields {
+    std::array<double, 3> cauchy;         ///< xx, yy, xy, Pa
+    std::array<double, 4> munjiza;        ///< v, alpha, beta, psi, Pa; NaN for laws that know none
+    std::array<double, 4> stretch;        ///< s_v (of the composite), s_alpha, s_beta, s_psi
+    std::array<double, 2> alpha, beta;    ///< current axes, length = stretch
+};
+
+class ElementBlock {
+public:
+    /// Where to read and where to write. Pointers to z and history are those of this block's own part.
+    struct Evaluation {
+        const double* u = nullptr;        ///< nodal pairs
+        const double* v = nullptr;        ///< nodal pairs; read where the block is viscous
+        const double* z = nullptr;        ///< accepted, or given by an ODE solver
+        const double* history = nullptr;  ///< accepted
+        bool given = false;               ///< stresses from z as it is
+        double* z_updated = nullptr;      ///< null: no update wanted
+        double* history_updated = nullptr;
+    };
+    static constexpr std::ptrdiff_t none = -1;
+
+    virtual ~ElementBlock() = default;
+
+    virtual std::size_t n_elements() const = 0;
+    virtual int n_nodes() const = 0;          ///< per element
+    virtual int n_sub_triangles() const = 0;  ///< per element
+    std::size_t n_packs() const { return padded(n_elements()) / pack_width; }
+    /// Number of the mesh's element.
+    virtual std::int32_t element(std::size_t local) const = 0;
+
+    virtual std::size_t n_internal() const = 0;  ///< z of the block, whole packs
+    virtual std::size_t n_history() const = 0;
+    virtual bool viscous() const = 0;
+    virtual std::size_t bytes_per_element() const = 0;  ///< read in a force evaluation, nodal data apart
+
+    /// Where each element's nodal forces go: node numbers at first, slots of the workspace once the assembly is planned.
+    /// Shape (packs, n_nodes, pack_width).
+    virtual std::span<std::int32_t> targets() = 0;
+
+    virtual void initial_memory(double* z, double* history) const = 0;
+    virtual void add_mass(std::span<double> mass) const = 0;
+
+    /// Adds the nodal forces of packs [first, last) to workspace pairs.
+    /// @return an inverted element (local number), or `none`
+    virtual std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
+                                     double* workspace) const = 0;
+    /// z' at given z.
+    virtual void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const = 0;
+
+    struct Sums {
+        double stored = 0;         ///< J, laws with a stored energy
+        double stress_power = 0;   ///< J, accumulated, other laws
+        double viscous_power = 0;  ///< W, where v is given
+    };
+    virtual Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const = 0;
+
+    struct Rates {
+        double omega_squared = 0;  ///< (rad/s)^2
+        double damping = 0;        ///< 1/s
+    };
+    /// Largest eigenvalues of the elements' mass-weighted tangents, from above.
+    virtual Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const = 0;
+
+    /// @param[out] fields  shape (n_sub_triangles)
+    virtual void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const = 0;
+    /// "sub-triangle 2, det F = -0.1" of an inverted element.
+    virtual std::string describe_inversion(std::size_t local, const Evaluation& at) const = 0;
+    /// Stiffness at the start, direction of alpha (rad) and density (kg/m3): what small waves feel.
+    virtual MunjizaConstants tangent_constants(std::size_t local) const = 0;
+    virtual double axis_angle(std::size_t local) const = 0;
+    virtual double density() const = 0;
+};
+
+}  // namespace gneiss

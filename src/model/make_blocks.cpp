@@ -1,0 +1,117 @@
+#include "model/make_blocks.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "mesh/measure.hpp"
+#include "model/blocks/make_block.hpp"
+#include "model/formula.hpp"
+#include "model/material_axes.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr std::int32_t no_material = -1;
+
+std::string where(std::size_t material) { return fmt::format("[[material]] {}", material + 1); }
+
+/// Number of the material of each region of the mesh.
+std::vector<std::int32_t> material_of_region(const Mesh& mesh, const std::vector<MaterialOptions>& materials,
+                                             std::vector<Problem>& problems) {
+    std::vector<std::int32_t> of_region(mesh.region_names.size(), no_material);
+    std::string known;
+    for (const std::string& name : mesh.region_names) known += (known.empty() ? "" : ", ") + name;
+    std::int32_t rest = no_material;
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        const auto number = static_cast<std::int32_t>(m);
+        if (materials[m].regions.empty()) {
+            if (rest != no_material)
+                problems.push_back({where(m), fmt::format("names no region, like material {}: only one material can "
+                                                          "take all regions that no other names", rest + 1)});
+            rest = number;
+        }
+        for (const std::string& name : materials[m].regions) {
+            const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
+            if (region == mesh.region_names.end()) {
+                problems.push_back({where(m), fmt::format("the mesh has no region `{}`; it has: {}", name, known)});
+                continue;
+            }
+            std::int32_t& taken = of_region[static_cast<std::size_t>(region - mesh.region_names.begin())];
+            if (taken != no_material)
+                problems.push_back({where(m), fmt::format("region `{}` belongs to material {} already", name, taken + 1)});
+            taken = number;
+        }
+    }
+    for (std::size_t r = 0; r < of_region.size(); ++r) {
+        if (of_region[r] == no_material) of_region[r] = rest;
+        if (of_region[r] == no_material)
+            problems.push_back({"[[material]]", fmt::format("no material for region `{}`", mesh.region_names[r])});
+    }
+    return of_region;
+}
+
+std::vector<std::array<double, 3>> in_situ_stress(const Mesh& mesh, const std::vector<std::int32_t>& elements,
+                                                  const std::array<Formula, 3>& formulas) {
+    if (std::all_of(formulas.begin(), formulas.end(), [](const Formula& f) { return f.is_zero(); })) return {};
+    const std::array<CompiledFormula, 3> compiled{CompiledFormula(formulas[0], "xy"), CompiledFormula(formulas[1], "xy"),
+                                                  CompiledFormula(formulas[2], "xy")};
+    const auto centroids = element_centroids(mesh);
+    std::vector<std::array<double, 3>> stress;
+    for (const std::int32_t e : elements) {
+        const auto& [x, y] = centroids[static_cast<std::size_t>(e)];
+        stress.push_back({compiled[0](x, y), compiled[1](x, y), compiled[2](x, y)});
+    }
+    return stress;
+}
+
+std::unique_ptr<ElementBlock> make_block(const Mesh& mesh, BlockGeometry geometry, const SolidOptions& solid,
+                                         const MaterialOptions& material) {
+    const bool direct = material.stress_map == StressMap::direct;
+    if (material.law == LawKind::neo_hookean) return make_neo_hookean_block(mesh, std::move(geometry), solid, material);
+    if (material.form == Form::hyper)
+        return direct ? make_munjiza_hyperelastic_direct_block(mesh, std::move(geometry), solid, material)
+                      : make_munjiza_hyperelastic_block(mesh, std::move(geometry), solid, material);
+    return direct ? make_munjiza_hypoelastic_direct_block(mesh, std::move(geometry), solid, material)
+                  : make_munjiza_hypoelastic_block(mesh, std::move(geometry), solid, material);
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const SolidOptions& solid,
+                                                       const std::vector<MaterialOptions>& materials) {
+    std::vector<Problem> problems;
+    const std::vector<std::int32_t> of_region = material_of_region(mesh, materials, problems);
+    if (!problems.empty()) throw InputError(problems);
+
+    std::vector<std::unique_ptr<ElementBlock>> blocks;
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        const MaterialOptions& material = materials[m];
+        BlockGeometry geometry;
+        for (std::size_t e = 0; e < mesh.n_elements(); ++e)
+            if (of_region[static_cast<std::size_t>(mesh.region[e])] == static_cast<std::int32_t>(m))
+                geometry.elements.push_back(static_cast<std::int32_t>(e));
+        if (geometry.elements.empty()) continue;
+        std::vector<Problem> own;
+        if (solid.volumetric == Volumetric::centre && mesh.kind == ElementKind::compt &&
+            (material.law != LawKind::munjiza || material.stress_map != StressMap::direct))
+            own.push_back({"", "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
+                               "stress_map = \"direct\""});
+        geometry.axis_angle = axis_angles(mesh, geometry.elements, material.axes, own);
+        try {
+            geometry.in_situ_stress = in_situ_stress(mesh, geometry.elements, material.in_situ_stress);
+        } catch (const InputError& error) {
+            for (const Problem& problem : error.problems()) own.push_back({"in_situ_stress", problem.message});
+        }
+        for (const Problem& problem : own)
+            problems.push_back({where(m), problem.where.empty() ? problem.message : problem.where + ": " + problem.message});
+        geometry.thickness = solid.thickness;
+        geometry.density = material.density;
+        geometry.viscosity = {material.shear_viscosity, material.bulk_viscosity};
+        if (problems.empty()) blocks.push_back(make_block(mesh, std::move(geometry), solid, material));
+    }
+    if (!problems.empty()) throw InputError(problems);
+    return blocks;
+}
+
+}  // namespace gneiss

@@ -1,0 +1,123 @@
+#include "model/solid_system.hpp"
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "mesh/measure.hpp"
+#include "model/impedance.hpp"
+#include "model/load_switch.hpp"
+
+namespace gneiss {
+
+SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
+    : elements_(std::move(parts.blocks), mesh),
+      place_(mesh.n_elements()),
+      terms_(std::move(parts.terms)),
+      constraints_(std::move(parts.constraints)),
+      damping_(std::move(parts.damping)),
+      initial_velocity_(std::move(parts.initial_velocity)),
+      mass_(elements_.lumped_mass()),
+      smallest_edge_(mesh_size(mesh).smallest_edge) {
+    for (std::size_t b = 0; b < elements_.blocks().size(); ++b) {
+        const ElementBlock& block = *elements_.blocks()[b];
+        for (std::size_t local = 0; local < block.n_elements(); ++local)
+            place_[static_cast<std::size_t>(block.element(local))] = {static_cast<std::int32_t>(b),
+                                                                      static_cast<std::int32_t>(local)};
+    }
+    std::vector<double> switches = constraints_.switch_times();
+    for (const auto& term : terms_) {
+        const std::vector<double> own = term->switch_times();
+        switches.insert(switches.end(), own.begin(), own.end());
+    }
+    events_.push_back(std::make_unique<LoadSwitch>(std::move(switches)));
+}
+
+Layout SolidSystem::layout() const { return {mass_.size(), elements_.n_internal(), elements_.n_history()}; }
+
+State SolidSystem::initial_state() const {
+    State state;
+    state.u.assign(mass_.size(), 0.0);
+    state.v = initial_velocity_.empty() ? std::vector<double>(mass_.size(), 0.0) : initial_velocity_;
+    state.z.resize(elements_.n_internal());
+    state.history.resize(elements_.n_history());
+    elements_.initial_memory(state.z, state.history);
+    return state;
+}
+
+void SolidSystem::constraint_values(double t, double last_event, std::span<double> values) const {
+    constraints_.values(t, last_event, values);
+}
+
+void SolidSystem::force(const State& accepted, const Trial& trial, std::span<double> f) const {
+    elements_.force(accepted, trial, f);
+    for (const auto& term : terms_) term->add_force(trial, f);
+}
+
+void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                                   std::span<double> history) const {
+    elements_.force(accepted, trial, f, z, history);
+    for (const auto& term : terms_) term->add_force(trial, f);
+}
+
+void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {
+    elements_.internal_rate(accepted, trial, rate);
+}
+
+FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
+    const ElementBlock::Rates rates = elements_.largest_rates(accepted);
+    return {std::sqrt(rates.omega_squared), rates.damping};
+}
+
+StoredEnergies SolidSystem::stored_energies(const State& state) const {
+    Trial trial = Trial::of(state);
+    trial.v = {};
+    const ElementBlock::Sums sums = elements_.energies(state, trial);
+    StoredEnergies energies;
+    energies.material = sums.stored;
+    energies.stress_power = sums.stress_power;
+    return energies;
+}
+
+void SolidSystem::add_path_energies(const State& from, State& to) const {
+    to.path = from.path;
+    const Trial before = Trial::of(from);
+    Trial after = Trial::of(to);
+    after.last_event = from.last_event;  // the step ends before what switches at its end
+    for (const auto& term : terms_) term->add_path_energies(before, after, to.path);
+    if (!damping_.blocks.empty()) to.path.absorbing += absorbed_work(damping_.blocks, before, after);
+    if (damping_.mass_proportional > 0) {
+        const double sum = ordered_sum(mass_.size(), partial_, [&](std::size_t first, std::size_t last) {
+            double part = 0;
+            for (std::size_t i = first; i < last; ++i) part += mass_[i] * (from.v[i] + to.v[i]) * (to.u[i] - from.u[i]);
+            return part;
+        });
+        to.path.damping += 0.5 * damping_.mass_proportional * sum;
+    }
+    if (elements_.viscous()) {
+        to.path.viscous_power = elements_.energies(to, after).viscous_power;
+        to.path.viscous += 0.5 * (from.path.viscous_power + to.path.viscous_power) * (to.t - from.t);
+    }
+}
+
+std::vector<PointFields> SolidSystem::point_fields(const State& state, std::int32_t element) const {
+    const Place& place = place_[static_cast<std::size_t>(element)];
+    const auto block = static_cast<std::size_t>(place.block);
+    std::vector<PointFields> fields(static_cast<std::size_t>(elements_.blocks()[block]->n_sub_triangles()));
+    elements_.blocks()[block]->point_fields(static_cast<std::size_t>(place.local),
+                                            elements_.evaluation(block, state, Trial::of(state)), fields.data());
+    return fields;
+}
+
+std::vector<PointFields> SolidSystem::point_fields(const State& state) const {
+    const auto n_sub = static_cast<std::size_t>(elements_.blocks().front()->n_sub_triangles());
+    std::vector<PointFields> fields(place_.size() * n_sub);
+    for (std::size_t e = 0; e < place_.size(); ++e) {
+        const auto block = static_cast<std::size_t>(place_[e].block);
+        elements_.blocks()[block]->point_fields(static_cast<std::size_t>(place_[e].local),
+                                                elements_.evaluation(block, state, Trial::of(state)),
+                                                fields.data() + e * n_sub);
+    }
+    return fields;
+}
+
+}  // namespace gneiss

@@ -1,0 +1,67 @@
+#pragma once
+// A solid as a semi-discrete system: element blocks, loads, boundaries, events  [FORMULATION 1].
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/boundaries.hpp"
+#include "model/element_forces.hpp"
+#include "model/force_term.hpp"
+#include "system/semi_discrete.hpp"
+
+namespace gneiss {
+
+class SolidSystem final : public SemiDiscrete {
+public:
+    struct Parts {
+        std::vector<std::unique_ptr<ElementBlock>> blocks;
+        std::vector<std::unique_ptr<ForceTerm>> terms;
+        ConstraintSet constraints;
+        Damping damping;
+        std::vector<double> initial_velocity;  ///< m/s, shape (2 n_nodes)
+    };
+    SolidSystem(const Mesh& mesh, Parts parts);
+
+    Layout layout() const override;
+    State initial_state() const override;
+    std::span<const double> lumped_mass() const override { return mass_; }
+    const Damping& damping() const override { return damping_; }
+    std::span<const Constraint> constraints() const override { return constraints_.constraints(); }
+    void constraint_values(double t, double last_event, std::span<double> values) const override;
+    bool force_depends_on_velocity() const override { return elements_.viscous(); }
+    void force(const State& accepted, const Trial& trial, std::span<double> f) const override;
+    void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                          std::span<double> history) const override;
+    void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
+    double smallest_length() const override { return smallest_edge_; }
+    FrequencyBound frequency_bound(const State& accepted) const override;
+    StoredEnergies stored_energies(const State& state) const override;
+    void add_path_energies(const State& from, State& to) const override;
+    std::span<const std::unique_ptr<Event>> events() const override { return events_; }
+
+    const ElementForces& elements() const { return elements_; }
+
+    /// Values at every sub-triangle of every element, shape (n_elements, sub-triangles), in the mesh's order.
+    std::vector<PointFields> point_fields(const State& state) const;
+    /// The same for one element.
+    std::vector<PointFields> point_fields(const State& state, std::int32_t element) const;
+
+private:
+    struct Place {
+        std::int32_t block, local;  ///< of an element of the mesh
+    };
+
+    ElementForces elements_;
+    std::vector<Place> place_;
+    std::vector<std::unique_ptr<ForceTerm>> terms_;
+    ConstraintSet constraints_;
+    Damping damping_;
+    std::vector<double> initial_velocity_;
+    std::vector<double> mass_;
+    double smallest_edge_;
+    std::vector<std::unique_ptr<Event>> events_;
+    mutable std::vector<double> partial_;  ///< scratch of sums
+};
+
+}  // namespace gneiss

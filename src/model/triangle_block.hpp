@@ -1,0 +1,482 @@
+#pragma once
+// The block of one element, one sampling of the volume and one law. Included only by the files that instantiate it.
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "elements/triangle_kernel.hpp"
+#include "model/eigenvalue_bound.hpp"
+#include "model/element_block.hpp"
+
+namespace gneiss {
+
+template <class Element, Sampling sampling, class Law>
+class TriangleBlock final : public ElementBlock {
+public:
+    TriangleBlock(const Mesh& mesh, BlockGeometry geometry, Law law);
+
+    std::size_t n_elements() const override { return info_.elements.size(); }
+    int n_nodes() const override { return Element::n_nodes; }
+    int n_sub_triangles() const override { return Element::n_sub; }
+    std::int32_t element(std::size_t local) const override { return info_.elements[local]; }
+    std::size_t n_internal() const override { return n_packs() * z_stride; }
+    std::size_t n_history() const override { return n_packs() * history_stride; }
+    bool viscous() const override { return info_.viscosity.active(); }
+    std::size_t bytes_per_element() const override {
+        return (geometry_fields + Element::n_sub * (Law::n_internal + Law::n_history)) * sizeof(double) +
+               2 * Element::n_nodes * sizeof(std::int32_t);
+    }
+    std::span<std::int32_t> targets() override { return targets_; }
+
+    void initial_memory(double* z, double* history) const override;
+    void add_mass(std::span<double> mass) const override;
+    std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at, double* workspace) const override;
+    void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
+    Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
+    Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
+    void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const override;
+    std::string describe_inversion(std::size_t local, const Evaluation& at) const override;
+    MunjizaConstants tangent_constants(std::size_t local) const override;
+    double axis_angle(std::size_t local) const override { return info_.axis_angle[local]; }
+    double density() const override { return info_.density; }
+
+private:
+    static constexpr int n_dof = 2 * Element::n_nodes;
+    static constexpr std::size_t geometry_fields = 3 + 5 * Element::n_sub;
+    static constexpr std::size_t geometry_stride = geometry_fields * pack_width;
+    static constexpr std::size_t z_stride = Element::n_sub * Law::n_internal * pack_width;
+    static constexpr std::size_t history_stride = Element::n_sub * Law::n_history * pack_width;
+    static constexpr std::size_t index_stride = Element::n_nodes * pack_width;
+
+    template <class T>
+    using Nodal = std::array<Vec2<T>, Element::n_nodes>;
+    template <class T>
+    using Memory = std::array<typename Law::template Memory<T>, Element::n_sub>;
+    using PackGeometry = TriangleGeometry<Element, Pack>;
+
+    // ---- loads and stores of one pack; the scalar twins pick one lane ------------------------------------------------
+    PackGeometry geometry(std::size_t pack) const;
+    TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
+    Nodal<Pack> gather(const double* pairs, std::size_t pack) const;
+    Nodal<double> gather_one(const double* pairs, std::size_t local) const;
+    /// What a sub-triangle remembers at the start: the stress in situ, on the axes.
+    typename Law::template Memory<double> memory_at_rest(std::size_t local) const;
+    static Memory<Pack> load_memory(const Evaluation& at, std::size_t pack);
+    Memory<double> memory_of(const Evaluation& at, std::size_t local) const;
+    static void store_memory(const Memory<Pack>& memory, double* z, double* history, std::size_t pack);
+
+    template <bool given, bool update, bool viscous>
+    std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at, double* workspace) const;
+    std::ptrdiff_t inverted_lane(std::size_t pack, const Pack& smallest) const;
+    /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
+    Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
+
+    BlockGeometry info_;
+    Law law_;
+    PackVector geometry_;                ///< (packs, fields, width): axis, sub-triangles, inverse volume
+    std::vector<std::int32_t> nodes_;    ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
+    std::vector<std::int32_t> targets_;
+};
+
+// ---- construction --------------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeometry info, Law law)
+    : info_(std::move(info)), law_(std::move(law)) {
+    geometry_.resize(n_packs() * geometry_stride);
+    nodes_.resize(n_packs() * index_stride);
+    for (std::size_t slot = 0; slot < n_packs() * pack_width; ++slot) {
+        const bool padding = slot >= n_elements();
+        const std::size_t local = padding ? n_elements() - 1 : slot;
+        const std::int32_t* element_nodes = mesh.element(static_cast<std::size_t>(info_.elements[local]));
+        std::array<Vec2<double>, Element::n_nodes> x;
+        const std::size_t pack = slot / pack_width, lane = slot % pack_width;
+        for (int node = 0; node < Element::n_nodes; ++node) {
+            const auto& position = mesh.nodes[static_cast<std::size_t>(element_nodes[node])];
+            x[node] = {position[0], position[1]};
+            nodes_[pack * index_stride + node * pack_width + lane] = element_nodes[node];
+        }
+        const double angle = info_.axis_angle[local];
+        const auto g = triangle_geometry<Element>(x, {std::cos(angle), std::sin(angle)}, info_.thickness);
+        double* field = geometry_.data() + pack * geometry_stride + lane;
+        const auto put = [&field](double value) {
+            *field = value;
+            field += pack_width;
+        };
+        put(g.axis.x);
+        put(g.axis.y);
+        for (const auto& sub : g.sub) {
+            put(sub.k_a_alpha);
+            put(sub.k_a_beta);
+            put(sub.k_c_alpha);
+            put(sub.k_c_beta);
+            put(padding ? 0.0 : sub.volume);  // exerts no force, has no energy
+        }
+        put(g.inverse_volume);
+    }
+    targets_ = nodes_;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::memory_at_rest(std::size_t local) const ->
+    typename Law::template Memory<double> {
+    if constexpr (requires { &Law::initial_memory; }) {
+        if (!info_.in_situ_stress.empty()) {
+            const auto& [xx, yy, xy] = info_.in_situ_stress[local];
+            const double c = std::cos(info_.axis_angle[local]), s = std::sin(info_.axis_angle[local]);
+            return law_.initial_memory({c * c * xx + s * s * yy + 2 * s * c * xy,
+                                        s * s * xx + c * c * yy - 2 * s * c * xy,
+                                        s * c * (yy - xx) + (c * c - s * s) * xy});
+        }
+    }
+    (void)local;
+    return {};
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* history) const {
+    if constexpr (Law::n_internal > 0) {
+        for (std::size_t slot = 0; slot < n_packs() * pack_width; ++slot) {
+            const std::size_t local = std::min(slot, n_elements() - 1);
+            const auto g = geometry_of(local);
+            Memory<double> memory;
+            memory.fill(memory_at_rest(local));
+            // one update without a step puts strains and stresses at rest into the history
+            const Nodal<double> rest{};
+            const auto kinematics = triangle_kinematics<Element, sampling>(rest, g);
+            const auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
+            const std::size_t pack = slot / pack_width, lane = slot % pack_width;
+            for (std::size_t s = 0; s < Element::n_sub; ++s) {
+                const auto updated = law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
+                for (std::size_t k = 0; k < Law::n_internal; ++k)
+                    z[pack * z_stride + (s * Law::n_internal + k) * pack_width + lane] = updated.z[k];
+                for (std::size_t k = 0; k < Law::n_history; ++k)
+                    history[pack * history_stride + (s * Law::n_history + k) * pack_width + lane] = updated.history[k];
+            }
+        }
+    }
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) const {
+    for (std::size_t local = 0; local < n_elements(); ++local) {
+        const auto g = geometry_of(local);
+        const std::size_t pack = local / pack_width, lane = local % pack_width;
+        for (int s = 0; s < Element::n_sub; ++s) {
+            for (const int node : Element::sub_triangles[s]) {
+                const auto n = static_cast<std::size_t>(nodes_[pack * index_stride + node * pack_width + lane]);
+                mass[2 * n] += info_.density * g.sub[s].volume / 3;
+                mass[2 * n + 1] += info_.density * g.sub[s].volume / 3;
+            }
+        }
+    }
+}
+
+// ---- packs -----------------------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
+    const double* field = geometry_.data() + pack * geometry_stride;
+    const auto take = [&field] {
+        const Pack value = Pack::load_aligned(field);
+        field += pack_width;
+        return value;
+    };
+    PackGeometry g;
+    g.axis.x = take();
+    g.axis.y = take();
+    for (auto& sub : g.sub) {
+        sub.k_a_alpha = take();
+        sub.k_a_beta = take();
+        sub.k_c_alpha = take();
+        sub.k_c_beta = take();
+        sub.volume = take();
+    }
+    g.inverse_volume = take();
+    return g;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::geometry_of(std::size_t local) const -> TriangleGeometry<Element, double> {
+    const double* field = geometry_.data() + local / pack_width * geometry_stride + local % pack_width;
+    const auto take = [&field] {
+        const double value = *field;
+        field += pack_width;
+        return value;
+    };
+    TriangleGeometry<Element, double> g;
+    g.axis.x = take();
+    g.axis.y = take();
+    for (auto& sub : g.sub) {
+        sub.k_a_alpha = take();
+        sub.k_a_beta = take();
+        sub.k_c_alpha = take();
+        sub.k_c_beta = take();
+        sub.volume = take();
+    }
+    g.inverse_volume = take();
+    return g;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::gather(const double* pairs, std::size_t pack) const -> Nodal<Pack> {
+    Nodal<Pack> values;
+    const std::int32_t* index = nodes_.data() + pack * index_stride;
+#pragma GCC unroll 6
+    for (int node = 0; node < Element::n_nodes; ++node, index += pack_width)
+        gather_pairs(pairs, index, values[node].x, values[node].y);
+    return values;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::gather_one(const double* pairs, std::size_t local) const -> Nodal<double> {
+    Nodal<double> values;
+    const std::int32_t* index = nodes_.data() + local / pack_width * index_stride + local % pack_width;
+    for (int node = 0; node < Element::n_nodes; ++node, index += pack_width)
+        values[node] = {pairs[2 * *index], pairs[2 * *index + 1]};
+    return values;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::load_memory(const Evaluation& at, std::size_t pack) -> Memory<Pack> {
+    Memory<Pack> memory;
+    for (std::size_t s = 0; s < Element::n_sub; ++s) {
+        for (std::size_t k = 0; k < Law::n_internal; ++k)
+            memory[s].z[k] = Pack::load_unaligned(at.z + pack * z_stride + (s * Law::n_internal + k) * pack_width);
+        for (std::size_t k = 0; k < Law::n_history; ++k)
+            memory[s].history[k] =
+                Pack::load_unaligned(at.history + pack * history_stride + (s * Law::n_history + k) * pack_width);
+    }
+    return memory;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::memory_of(const Evaluation& at, std::size_t local) const -> Memory<double> {
+    Memory<double> memory{};
+    const std::size_t pack = local / pack_width, lane = local % pack_width;
+    for (std::size_t s = 0; s < Element::n_sub; ++s) {
+        for (std::size_t k = 0; k < Law::n_internal; ++k)
+            memory[s].z[k] = at.z[pack * z_stride + (s * Law::n_internal + k) * pack_width + lane];
+        for (std::size_t k = 0; k < Law::n_history; ++k)
+            memory[s].history[k] = at.history[pack * history_stride + (s * Law::n_history + k) * pack_width + lane];
+    }
+    return memory;
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::store_memory(const Memory<Pack>& memory, double* z, double* history,
+                                                         std::size_t pack) {
+    for (std::size_t s = 0; s < Element::n_sub; ++s) {
+        for (std::size_t k = 0; k < Law::n_internal; ++k)
+            memory[s].z[k].store_unaligned(z + pack * z_stride + (s * Law::n_internal + k) * pack_width);
+        for (std::size_t k = 0; k < Law::n_history; ++k)
+            memory[s].history[k].store_unaligned(history + pack * history_stride + (s * Law::n_history + k) * pack_width);
+    }
+}
+
+template <class Element, Sampling sampling, class Law>
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t pack, const Pack& smallest) const {
+    std::array<double, pack_width> values;
+    smallest.store_unaligned(values.data());
+    for (std::size_t lane = 0; lane < pack_width; ++lane)
+        if (!(values[lane] > 0)) return static_cast<std::ptrdiff_t>(std::min(pack * pack_width + lane, n_elements() - 1));
+    return none;
+}
+
+// ---- forces ----------------------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+template <bool given, bool update, bool viscous>
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
+                                                                      const Evaluation& at, double* workspace) const {
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const PackGeometry g = geometry(pack);
+        const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+        const Pack smallest = smallest_jacobian(kinematics);
+        if (!every_lane(smallest > Pack(0.0))) [[unlikely]]
+            return inverted_lane(pack, smallest);
+        const Memory<Pack> memory = load_memory(at, pack);
+        const auto stress = triangle_stress<Element, given>(law_, kinematics, g, memory);
+        Nodal<Pack> f;
+        triangle_force(kinematics, g, stress, f);
+        if constexpr (viscous) {
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+        }
+        if constexpr (update) {
+            Memory<Pack> updated;
+            for (std::size_t s = 0; s < Element::n_sub; ++s)
+                updated[s] = law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
+            store_memory(updated, at.z_updated, at.history_updated, pack);
+        }
+        const std::int32_t* target = targets_.data() + pack * index_stride;
+#pragma GCC unroll 6
+        for (int node = 0; node < Element::n_nodes; ++node, target += pack_width)
+            scatter_add_pairs(workspace, target, f[node].x, f[node].y);
+    }
+    return none;
+}
+
+template <class Element, Sampling sampling, class Law>
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
+                                                                const Evaluation& at, double* workspace) const {
+    const auto run = [&]<bool given, bool update>() {
+        return viscous() ? add_force_packs<given, update, true>(first, last, at, workspace)
+                         : add_force_packs<given, update, false>(first, last, at, workspace);
+    };
+    if constexpr (Law::n_internal > 0) {
+        if (at.given) return run.template operator()<true, false>();
+        if (at.z_updated != nullptr) return run.template operator()<false, true>();
+    }
+    return run.template operator()<false, false>();
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std::size_t last, const Evaluation& at,
+                                                          double* rate) const {
+    if constexpr (Law::n_internal > 0) {
+        for (std::size_t pack = first; pack < last; ++pack) {
+            const PackGeometry g = geometry(pack);
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const Memory<Pack> memory = load_memory(at, pack);
+            const auto stress = triangle_stress<Element, true>(law_, kinematics, g, memory);
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            for (std::size_t s = 0; s < Element::n_sub; ++s) {
+                const auto z_rate =
+                    law_.rate(kinematics.point[s], stress.volume, rates[s], stress.point[s], stress.q, memory[s]);
+                for (std::size_t k = 0; k < Law::n_internal; ++k)
+                    z_rate[k].store_unaligned(rate + pack * z_stride + (s * Law::n_internal + k) * pack_width);
+            }
+        }
+    }
+}
+
+// ---- energies and bounds -----------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const
+    -> Sums {
+    Pack stored(0.0), stress_power(0.0), viscous_power(0.0);
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const PackGeometry g = geometry(pack);
+        if constexpr (Law::has_stored_energy) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const auto volume = law_.volume(kinematics.volume_strain);
+            for (int s = 0; s < Element::n_sub; ++s)
+                stored += g.sub[s].volume * law_.energy_density(kinematics.point[s], volume);
+        } else {
+            const Memory<Pack> memory = load_memory(at, pack);
+            for (int s = 0; s < Element::n_sub; ++s)
+                stress_power += g.sub[s].volume * memory[s].z[Law::n_internal - 1];
+        }
+        if (viscous() && at.v != nullptr) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            Nodal<Pack> f{};
+            viscous_power += add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+        }
+    }
+    return {xsimd::hadd(stored), xsimd::hadd(stress_power), xsimd::hadd(viscous_power)};
+}
+
+template <class Element, Sampling sampling, class Law>
+Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
+                                                                const Nodal<Dual<n_dof, Pack>>& f) const {
+    std::array<Pack, Element::n_nodes> mass;
+    mass.fill(Pack(0.0));
+    for (int s = 0; s < Element::n_sub; ++s)
+        for (const int node : Element::sub_triangles[s]) mass[node] += g.sub[s].volume;
+    // padded lanes have no mass: any number does, they have no stiffness either
+    for (Pack& m : mass) m = Pack(1.0) / xsimd::sqrt(xsimd::max(m * Pack(info_.density / 3), Pack(1e-300)));
+    std::array<Pack, n_dof * n_dof> a;
+    const auto derivative = [&f](int i, int j) -> const Pack& {
+        return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];
+    };
+    for (int i = 0; i < n_dof; ++i)
+        for (int j = 0; j < n_dof; ++j)
+            a[i * n_dof + j] = Pack(-0.5) * (derivative(i, j) + derivative(j, i)) * mass[i / 2] * mass[j / 2];
+    return largest_eigenvalue_bound<n_dof>(a);
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const
+    -> Rates {
+    using D = Dual<n_dof, Pack>;
+    const auto independent = [](const Nodal<Pack>& values) {
+        Nodal<D> duals;
+        for (int node = 0; node < Element::n_nodes; ++node)
+            duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
+        return duals;
+    };
+    Pack omega_squared(0.0), damping(0.0);
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const PackGeometry g = geometry(pack);
+        const Nodal<Pack> u = gather(at.u, pack);
+        Nodal<D> f;
+        {
+            const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
+            const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
+            triangle_force(kinematics, g, stress, f);
+        }
+        omega_squared = xsimd::max(omega_squared, mass_weighted_bound(g, f));
+        if (viscous()) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
+            const auto rates = triangle_rates<Element, sampling>(independent(gather(at.v, pack)), kinematics, g);
+            f.fill({D(0.0), D(0.0)});
+            add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+            damping = xsimd::max(damping, mass_weighted_bound(g, f));
+        }
+    }
+    const auto largest = [](const Pack& pack) {
+        std::array<double, pack_width> values;
+        pack.store_unaligned(values.data());
+        return *std::max_element(values.begin(), values.end());
+    };
+    return {largest(omega_squared), largest(damping)};
+}
+
+// ---- output ------------------------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, const Evaluation& at,
+                                                         PointFields* fields) const {
+    const auto g = geometry_of(local);
+    const auto kinematics = triangle_kinematics<Element, sampling>(gather_one(at.u, local), g);
+    const Memory<double> memory = memory_of(at, local);
+    const auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const PointKinematics<double>& point = kinematics.point[s];
+        const Vec2<double> alpha = point.alpha(), beta = point.beta();
+        const auto sigma = cauchy_stress(point, stress.point[s], stress.q);
+        PointFields& out = fields[s];
+        out.cauchy = {sigma.xx, sigma.yy, sigma.xy};
+        out.munjiza.fill(std::numeric_limits<double>::quiet_NaN());
+        if constexpr (requires { law_.munjiza_stress(point, stress.volume, memory[s]); }) {
+            const auto m = law_.munjiza_stress(point, stress.volume, memory[s]);
+            out.munjiza = {m.v, m.alpha, m.beta, m.psi};
+        }
+        const double psi = std::atan2(cross(alpha, beta), dot(alpha, beta));
+        out.stretch = {1 + kinematics.volume_strain, std::sqrt(dot(alpha, alpha)), std::sqrt(dot(beta, beta)),
+                       psi / (2 * std::atan(1.0))};
+        out.alpha = {alpha.x, alpha.y};
+        out.beta = {beta.x, beta.y};
+    }
+}
+
+template <class Element, Sampling sampling, class Law>
+std::string TriangleBlock<Element, sampling, Law>::describe_inversion(std::size_t local, const Evaluation& at) const {
+    const auto kinematics = triangle_kinematics<Element, sampling>(gather_one(at.u, local), geometry_of(local));
+    for (int s = 0; s < Element::n_sub; ++s) {
+        const double jacobian = kinematics.point[s].jacobian();
+        if (!(jacobian > 0)) return fmt::format("sub-triangle {}, det F = {:.6g}", s + 1, jacobian);
+    }
+    return fmt::format("s_v = {:.6g}", 1 + kinematics.volume_strain);
+}
+
+template <class Element, Sampling sampling, class Law>
+MunjizaConstants TriangleBlock<Element, sampling, Law>::tangent_constants(std::size_t local) const {
+    return law_.tangent_constants(memory_at_rest(local));
+}
+
+}  // namespace gneiss

@@ -1,0 +1,46 @@
+#include "system/march.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace gneiss {
+namespace {
+
+double next_event_time(const SemiDiscrete& system, const State& state) {
+    double next = std::numeric_limits<double>::infinity();
+    for (const auto& event : system.events()) next = std::min(next, event->next_time(state).value_or(next));
+    return next;
+}
+
+/// Lets every event happen that is due at state.t; the strongest outcome counts.
+EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
+    EventOutcome strongest = EventOutcome::none;
+    for (const auto& event : system.events()) {
+        for (auto next = event->next_time(state); next && *next <= state.t; next = event->next_time(state))
+            strongest = std::max(strongest, event->apply(state));
+    }
+    return strongest;
+}
+
+}  // namespace
+
+MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, State& state, bool resumed) const {
+    if (!resumed) {
+        apply_due_events(system, state);
+        integrator.start(system, state, StartReason::fresh);
+    }
+    if (after_start) after_start();
+    while (state.t < t_end) {
+        const double stop = next_stop ? next_stop(state.t) : t_end;
+        const StepReport step = integrator.advance(system, state, std::min({t_end, stop, next_event_time(system, state)}));
+        switch (apply_due_events(system, state)) {
+            case EventOutcome::none: break;
+            case EventOutcome::reinitialise: integrator.start(system, state, StartReason::reinitialise); break;
+            case EventOutcome::resize: integrator.start(system, state, StartReason::resize); break;
+        }
+        if (after_step && !after_step(step)) return MarchOutcome::interrupted;
+    }
+    return MarchOutcome::finished;
+}
+
+}  // namespace gneiss
