@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <tuple>
 
 #include "mesh/composite.hpp"
@@ -106,7 +105,9 @@ private:
         for (std::size_t e = 0; e < draft_.elements.size(); ++e) {
             const auto& element = draft_.elements[e];
             const std::int64_t label = draft_.element_labels[e];
-            if (std::set<std::int32_t>(element.begin(), element.end()).size() < element.size()) {
+            auto sorted = element;
+            std::sort(sorted.begin(), sorted.end());
+            if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
                 repeated.push_back(label);
                 continue;
             }

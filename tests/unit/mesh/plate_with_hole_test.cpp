@@ -96,14 +96,18 @@ INSTANTIATE_TEST_SUITE_P(Layouts, PlateWithHole, ::testing::Values(Layout::free,
 /// Part of the nodes within 0.45 sides of the centre that a rotation about it brings onto a node.
 double self_image(const Mesh& mesh, double angle) {
     constexpr double same_place = 1e-3;  // a hundredth of the smallest edge
+    const auto by_x = [](const Point2& p, const Point2& q) { return p[0] < q[0]; };
+    std::vector<Point2> nodes = mesh.nodes;
+    std::sort(nodes.begin(), nodes.end(), by_x);
     std::size_t n_inside = 0, n_mapped = 0;
-    for (const Point2& x : mesh.nodes) {
+    for (const Point2& x : nodes) {
         if (std::hypot(x[0], x[1]) > 0.45 * 8) continue;
         ++n_inside;
         const Point2 turned{std::cos(angle) * x[0] - std::sin(angle) * x[1],
                             std::sin(angle) * x[0] + std::cos(angle) * x[1]};
-        n_mapped += std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
-                                [&](const Point2& y) { return distance(turned, y) < same_place; });
+        const auto begin = std::lower_bound(nodes.begin(), nodes.end(), Point2{turned[0] - same_place, 0}, by_x);
+        const auto end = std::upper_bound(begin, nodes.end(), Point2{turned[0] + same_place, 0}, by_x);
+        n_mapped += std::any_of(begin, end, [&](const Point2& y) { return distance(turned, y) < same_place; });
     }
     return static_cast<double>(n_mapped) / static_cast<double>(n_inside);
 }
