@@ -149,6 +149,21 @@ TEST(PlateWithHoleLayout, Structured_DividesAsTheSizesAsk) {
     EXPECT_EQ(make_mesh(options, true, ".").n_elements(), 2u * 128 * 12);
 }
 
+TEST(PlateWithHoleLayout, Structured_RingsGrowGeometrically) {
+    const Mesh mesh = make_mesh(plate(Layout::structured), true, ".");
+    std::vector<double> x;  // of the nodes on the axis to the right: corners and mid-sides in turn
+    for (const Point2& node : mesh.nodes)
+        if (node[0] > 0 && std::abs(node[1]) < round_off) x.push_back(node[0]);
+    std::sort(x.begin(), x.end());
+    ASSERT_EQ(x.size(), 2u * 13 + 1);
+    // 13 edges in the ratio q fill 3 m while the local size grows from 0.1 to 0.5 m: q^13 = 5, first (q^13 - 1)/(q - 1)
+    // = 3.
+    const double growth = std::pow(5, 1.0 / 13);
+    EXPECT_NEAR(x[2] - x[0], 3 * (growth - 1) / 4, round_off);
+    for (std::size_t i = 4; i < x.size(); i += 2)
+        EXPECT_NEAR((x[i] - x[i - 2]) / (x[i - 2] - x[i - 4]), growth, round_off * 100);
+}
+
 TEST(PlateWithHoleLayout, CoarseHole_StaysSound) {
     for (Layout layout : {Layout::free, Layout::structured}) {
         MeshOptions options = plate(layout);
