@@ -1,0 +1,235 @@
+#pragma once
+// A few masses on springs, dashpots and Maxwell elements: a semi-discrete system with everything an integrator has to
+// cope with, small enough for an independent reference solution.
+//
+//     M a + C v = p(t) - K u - D v - B^T z,      z' = k B v - z/tau
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "system/semi_discrete.hpp"
+
+namespace gneiss::test {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/// A jump of the forces at one instant.
+class Switch final : public Event {
+public:
+    explicit Switch(double time) : time_(time) {}
+    std::string name() const override { return "switch"; }
+    std::optional<double> next_time(const State& state) const override {
+        return state.last_event < time_ ? std::optional(time_) : std::nullopt;
+    }
+    EventOutcome apply(State& accepted) override {
+        accepted.last_event = time_;
+        return EventOutcome::reinitialise;
+    }
+
+private:
+    double time_;
+};
+
+/// A prescribed motion with its derivatives; m, m/s, m/s2 against s.
+struct PrescribedMotion {
+    Constraint constraint;
+    std::function<double(double t)> u, v, a;
+};
+
+struct OscillatorModel {
+    Matrix stiffness;                                              ///< K, N/m, shape (n, n)
+    Vector mass;                                                   ///< kg, shape (n)
+    Damping damping;                                               ///< C
+    Matrix viscosity;                                              ///< D, N s/m, shape (n, n); empty: none
+    std::function<Vector(double t, bool switched)> load;           ///< N; empty: none
+    double switch_time = std::numeric_limits<double>::infinity();  ///< s; infinite: no event
+    Matrix maxwell;                                                ///< B, shape (n_internal, n); empty: none
+    double maxwell_stiffness = 0;                                  ///< k, N/m
+    double relaxation_time = 1;                                    ///< tau, s
+    std::vector<PrescribedMotion> prescribed;                      ///< by ascending degree of freedom
+    Vector initial_u, initial_v;                                   ///< m, m/s; empty: zero
+    FrequencyBound bound;                                          ///< as reported; omega = 0: from K and D
+};
+
+class Oscillator final : public SemiDiscrete {
+public:
+    explicit Oscillator(OscillatorModel model) : model_(std::move(model)) {
+        for (const auto& motion : model_.prescribed) constraints_.push_back(motion.constraint);
+        mass_.assign(model_.mass.data(), model_.mass.data() + model_.mass.size());
+        if (std::isfinite(model_.switch_time)) events_.push_back(std::make_unique<Switch>(model_.switch_time));
+        if (model_.bound.omega == 0) model_.bound = exact_bound();
+    }
+
+    const OscillatorModel& model() const { return model_; }
+    /// Largest eigenvalues of M^-1 K and M^-1 D, as frequency and rate.
+    FrequencyBound exact_bound() const {
+        const Vector scale = model_.mass.cwiseSqrt().cwiseInverse();
+        const auto largest = [&](const Matrix& a) {
+            const Matrix scaled = scale.asDiagonal() * a * scale.asDiagonal();
+            return Eigen::SelfAdjointEigenSolver<Matrix>(scaled).eigenvalues().maxCoeff();
+        };
+        return {std::sqrt(largest(model_.stiffness)), model_.viscosity.size() > 0 ? largest(model_.viscosity) : 0.0};
+    }
+    /// The next force evaluation fails.
+    void fail_once() { fails_ = true; }
+
+    Layout layout() const override { return {mass_.size(), n_internal(), 0}; }
+    State initial_state() const override {
+        State state;
+        const auto n = static_cast<Eigen::Index>(mass_.size());
+        const Vector u = model_.initial_u.size() > 0 ? model_.initial_u : Vector::Zero(n);
+        const Vector v = model_.initial_v.size() > 0 ? model_.initial_v : Vector::Zero(n);
+        state.u.assign(u.data(), u.data() + n);
+        state.v.assign(v.data(), v.data() + n);
+        state.z.assign(n_internal(), 0.0);
+        return state;
+    }
+    std::span<const double> lumped_mass() const override { return mass_; }
+    const Damping& damping() const override { return model_.damping; }
+    std::span<const Constraint> constraints() const override { return constraints_; }
+    void constraint_values(double t, double, std::span<double> values) const override {
+        for (std::size_t k = 0; k < constraints_.size(); ++k)
+            values[k] = constraints_[k].kind == Constraint::Kind::displacement ? model_.prescribed[k].u(t)
+                                                                               : model_.prescribed[k].v(t);
+    }
+    bool force_depends_on_velocity() const override { return model_.viscosity.size() > 0; }
+
+    void force(const State& accepted, const Trial& trial, std::span<double> f) const override {
+        if (std::exchange(fails_, false)) throw RecoverableError("told to fail");
+        const Vector z = trial.z.empty() ? updated(accepted, trial) : vector(trial.z);
+        const Vector force =
+            applied(trial.t, trial.last_event >= model_.switch_time, vector(trial.u), vector(trial.v), z);
+        std::copy(force.data(), force.data() + force.size(), f.begin());
+    }
+    void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                          std::span<double>) const override {
+        force(accepted, trial, f);
+        const Vector update = updated(accepted, trial);
+        std::copy(update.data(), update.data() + update.size(), z.begin());
+    }
+    void internal_rate(const State&, const Trial& trial, std::span<double> rate) const override {
+        const Vector z_rate = maxwell_rate(vector(trial.v), vector(trial.z));
+        std::copy(z_rate.data(), z_rate.data() + z_rate.size(), rate.begin());
+    }
+    double smallest_length() const override { return 1; }
+    FrequencyBound frequency_bound(const State&) const override { return model_.bound; }
+    StoredEnergies stored_energies(const State& state) const override {
+        StoredEnergies energies;
+        energies.material = 0.5 * vector(state.u).dot(model_.stiffness * vector(state.u));
+        return energies;
+    }
+    void add_path_energies(const State& from, State& to) const override {
+        to.path = from.path;
+        const Vector du = vector(to.u) - vector(from.u), v_sum = vector(from.v) + vector(to.v);
+        to.path.damping += 0.5 * v_sum.dot(nodal_damping() * du);
+        if (model_.load) {
+            const bool switched = from.last_event >= model_.switch_time;  // the step ends before the switch
+            to.path.external_work += 0.5 * du.dot(model_.load(from.t, switched) + model_.load(to.t, switched));
+        }
+    }
+    std::span<const std::unique_ptr<Event>> events() const override { return events_; }
+
+    // ---- the same equations for a reference solution
+    // ------------------------------------------------------------------
+
+    Vector applied(double t, bool switched, const Vector& u, const Vector& v, const Vector& z) const {
+        Vector f = -(model_.stiffness * u);
+        if (model_.load) f += model_.load(t, switched);
+        if (model_.viscosity.size() > 0) f -= model_.viscosity * v;
+        if (n_internal() > 0) f -= model_.maxwell.transpose() * z;
+        return f;
+    }
+    Vector maxwell_rate(const Vector& v, const Vector& z) const {
+        return model_.maxwell_stiffness * (model_.maxwell * v) - z / model_.relaxation_time;
+    }
+    /// C as a full matrix.
+    Matrix nodal_damping() const {
+        Matrix c = model_.damping.mass_proportional * Matrix(model_.mass.asDiagonal());
+        for (const Damping::Block& block : model_.damping.blocks) {
+            const Eigen::Index x = 2 * static_cast<Eigen::Index>(block.node);
+            c(x, x) += block.xx;
+            c(x, x + 1) += block.xy;
+            c(x + 1, x) += block.xy;
+            c(x + 1, x + 1) += block.yy;
+        }
+        return c;
+    }
+    static Eigen::Map<const Vector> vector(std::span<const double> values) {
+        return {values.data(), static_cast<Eigen::Index>(values.size())};
+    }
+
+private:
+    std::size_t n_internal() const { return static_cast<std::size_t>(model_.maxwell.rows()); }
+
+    /// z at the end of a step along which B u grows linearly.
+    Vector updated(const State& accepted, const Trial& trial) const {
+        if (n_internal() == 0) return {};
+        const double x = (trial.t - accepted.t) / model_.relaxation_time;
+        const double mean = x > 0 ? -std::expm1(-x) / x : 1.0;  // of exp(-s x) over the step
+        return std::exp(-x) * vector(accepted.z) +
+               (model_.maxwell_stiffness * mean) * (model_.maxwell * (vector(trial.u) - vector(accepted.u)));
+    }
+
+    OscillatorModel model_;
+    std::vector<Constraint> constraints_;
+    std::vector<double> mass_;
+    std::vector<std::unique_ptr<Event>> events_;
+    mutable bool fails_ = false;
+};
+
+/// u, v and z of the oscillator at time t by the classic Runge-Kutta method with steps of at most dt that end at the
+/// switch: an independent method of order 4.
+inline State runge_kutta(const Oscillator& system, double t_end, double dt) {
+    State state = system.initial_state();
+    const OscillatorModel& model = system.model();
+    Vector u = Oscillator::vector(state.u), v = Oscillator::vector(state.v), z = Oscillator::vector(state.z);
+    const Matrix damping = system.nodal_damping();
+    const auto hold = [&](double t, Vector& displacement, Vector& velocity) {
+        for (const auto& motion : model.prescribed) {
+            const auto dof = static_cast<Eigen::Index>(motion.constraint.dof);
+            displacement[dof] = motion.u(t);
+            velocity[dof] = motion.v(t);
+        }
+    };
+    struct Rates {
+        Vector u, v, z;
+    };
+    const auto rates = [&](double t, bool switched, Vector u_t, Vector v_t, const Vector& z_t) {
+        hold(t, u_t, v_t);
+        Vector a = (system.applied(t, switched, u_t, v_t, z_t) - damping * v_t).cwiseQuotient(model.mass);
+        for (const auto& motion : model.prescribed) a[static_cast<Eigen::Index>(motion.constraint.dof)] = motion.a(t);
+        return Rates{v_t, a, z_t.size() > 0 ? system.maxwell_rate(v_t, z_t) : Vector(z_t)};
+    };
+    const auto march = [&](double from, double to, bool switched) {
+        const auto n = static_cast<int>(std::ceil((to - from) / dt));
+        const double h = (to - from) / n;
+        for (int i = 0; i < n; ++i) {
+            const double t = from + i * h;
+            hold(t, u, v);
+            const Rates k1 = rates(t, switched, u, v, z);
+            const Rates k2 = rates(t + h / 2, switched, u + h / 2 * k1.u, v + h / 2 * k1.v, z + h / 2 * k1.z);
+            const Rates k3 = rates(t + h / 2, switched, u + h / 2 * k2.u, v + h / 2 * k2.v, z + h / 2 * k2.z);
+            const Rates k4 = rates(t + h, switched, u + h * k3.u, v + h * k3.v, z + h * k3.z);
+            u += h / 6 * (k1.u + 2 * k2.u + 2 * k3.u + k4.u);
+            v += h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v);
+            z += h / 6 * (k1.z + 2 * k2.z + 2 * k3.z + k4.z);
+        }
+        hold(to, u, v);
+    };
+    const double middle = std::min(model.switch_time, t_end);
+    march(0, middle, false);
+    if (middle < t_end) march(middle, t_end, true);
+    state.t = t_end;
+    state.u.assign(u.data(), u.data() + u.size());
+    state.v.assign(v.data(), v.data() + v.size());
+    state.z.assign(z.data(), z.data() + z.size());
+    return state;
+}
+
+}  // namespace gneiss::test

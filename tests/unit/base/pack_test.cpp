@@ -1,0 +1,65 @@
+#include "base/pack.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "support/packs.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr std::int32_t n_nodes = 37;
+
+std::array<std::int32_t, pack_width> random_indices(std::mt19937& random, std::int32_t n) {
+    std::uniform_int_distribution<std::int32_t> any(0, n - 1);
+    std::array<std::int32_t, pack_width> index;
+    for (std::int32_t& i : index) i = any(random);
+    return index;
+}
+
+TEST(Padded, AnyCount_IsTheNextMultipleOfTheWidth) {
+    EXPECT_EQ(padded(0), 0u);
+    EXPECT_EQ(padded(1), pack_width);
+    EXPECT_EQ(padded(pack_width), pack_width);
+    EXPECT_EQ(padded(pack_width + 1), 2 * pack_width);
+}
+
+TEST(GatherPairs, AnyIndices_BringXAndYOfEachNodeIntoItsLane) {
+    std::vector<double> values(2 * n_nodes);
+    std::iota(values.begin(), values.end(), 0.5);
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 50; ++trial) {
+        const auto index = random_indices(random, trial < 25 ? n_nodes : 2);  // the second half repeats indices
+        Pack x, y;
+        gather_pairs(values.data(), index.data(), x, y);
+        for (std::size_t lane = 0; lane < pack_width; ++lane) {
+            EXPECT_EQ(lanes(x)[lane], 2 * index[lane] + 0.5);
+            EXPECT_EQ(lanes(y)[lane], 2 * index[lane] + 1.5);
+        }
+    }
+}
+
+TEST(ScatterAddPairs, RepeatedIndices_AddUpInTheOrderOfTheLanes) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int trial = 0; trial < 50; ++trial) {
+        const auto index = random_indices(random, trial < 25 ? n_nodes : 2);
+        std::vector<double> values(2 * n_nodes);
+        for (double& value : values) value = number(random);
+        const Pack x = pack_of([&](std::size_t) { return number(random); });
+        const Pack y = pack_of([&](std::size_t) { return number(random); });
+        std::vector<double> expected = values;
+        for (std::size_t lane = 0; lane < pack_width; ++lane) {
+            expected[2 * static_cast<std::size_t>(index[lane])] += lanes(x)[lane];
+            expected[2 * static_cast<std::size_t>(index[lane]) + 1] += lanes(y)[lane];
+        }
+        scatter_add_pairs(values.data(), index.data(), x, y);
+        EXPECT_EQ(values, expected) << "bit by bit: same sums in the same order";
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
