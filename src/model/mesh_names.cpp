@@ -4,28 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/errors.hpp"
+#include "base/suggest.hpp"
 
 namespace gneiss {
 namespace {
-
-/// Insertions, deletions and replacements that turn a into b [Wagner and Fischer 1974].
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 template <class Map>
 std::vector<std::string> keys(const Map& map) {
@@ -53,8 +37,8 @@ InputError unknown_name(const Mesh& mesh, const std::string& name, const std::st
     }
     if (names.empty()) return {"", message + "; there are none"};
     message += fmt::format("; there are: \"{}\"", fmt::join(names, "\", \""));
-    if (const std::string nearest = nearest_word(name, names); !nearest.empty()) {
-        message += fmt::format("; did you mean \"{}\"?", nearest);
+    if (const std::string_view meant = nearest(name, {names.begin(), names.end()}); !meant.empty()) {
+        message += fmt::format("; did you mean \"{}\"?", meant);
     }
     return {"", message};
 }
@@ -71,20 +55,6 @@ std::vector<std::int32_t> nodes_of(const Mesh& mesh, const std::vector<std::int3
 }
 
 }  // namespace
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-    // One slip per three letters: more and the suggestion is a guess.
-    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
-    std::string best;
-    for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
-        if (distance < best_distance) {
-            best_distance = distance;
-            best = candidate;
-        }
-    }
-    return best;
-}
 
 const std::vector<BoundaryEdge>& boundary_named(const Mesh& mesh, const std::string& name) {
     const auto found = mesh.boundaries.find(name);

@@ -20,7 +20,4 @@ std::vector<std::int32_t> elements_named(const Mesh& mesh, const std::string& re
 /// Nodes of a region or of a set, ascending. A name that means both is refused, unless it means the same nodes.
 std::vector<std::int32_t> region_or_nodes_named(const Mesh& mesh, const std::string& name);
 
-/// The candidate nearest to a misspelt word, or an empty string if none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
-
 }  // namespace gneiss

@@ -9,7 +9,7 @@
 
 #include "io/deck/choices.hpp"
 #include "io/deck/schema.hpp"
-#include "io/deck/suggest.hpp"
+#include "base/suggest.hpp"
 
 namespace gneiss::deck {
 

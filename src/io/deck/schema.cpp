@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/deck/suggest.hpp"
+#include "base/suggest.hpp"
 
 namespace gneiss::deck {
 namespace {

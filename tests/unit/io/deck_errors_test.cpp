@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "io/deck/deck.hpp"
-#include "io/deck/suggest.hpp"
 
 namespace gneiss {
 namespace {
@@ -272,23 +271,6 @@ TEST(DeckErrors, Set) {
         EXPECT_EQ(error.problems()[0].where, "--set title=\"a");
         EXPECT_EQ(error.problems()[1].where, "--set run.t_end=-1");
     }
-}
-
-TEST(Suggestion, Distance_CountsSlipsOfTheFinger) {
-    using deck::edit_distance;
-    EXPECT_EQ(edit_distance("density", "density"), 0u);
-    EXPECT_EQ(edit_distance("Density", "density"), 0u);
-    EXPECT_EQ(edit_distance("denisty", "density"), 1u);  // neighbours swapped
-    EXPECT_EQ(edit_distance("desity", "density"), 1u);
-    EXPECT_EQ(edit_distance("densityy", "density"), 1u);
-    EXPECT_EQ(edit_distance("", "abc"), 3u);
-    EXPECT_EQ(edit_distance("ca", "abc"), 3u);  // optimal string alignment, not the unrestricted distance 2
-}
-
-TEST(Suggestion, OnlyNearNames_AreSuggested) {
-    EXPECT_EQ(deck::nearest("thikness", {"thickness", "element"}), "thickness");
-    EXPECT_EQ(deck::nearest("zzz", {"thickness", "element"}), "");
-    EXPECT_EQ(deck::nearest("q", {"E", "G"}), "");  // replacing the only letter is no slip
 }
 
 }  // namespace

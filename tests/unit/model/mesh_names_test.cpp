@@ -35,7 +35,7 @@ TEST(MeshNames, Unknown_MisspeltBoundary_ListsBoundariesAndSuggests) {
     const Mesh mesh = test::rectangle_mesh();
     EXPECT_EQ(message_of([&] { boundary_named(mesh, "otuer"); }),
               "on = \"otuer\": the mesh has no boundary of this name; there are: \"bottom\", \"left\", \"outer\", "
-              "\"right\", \"top\"");
+              "\"right\", \"top\"; did you mean \"outer\"?");
     EXPECT_EQ(message_of([&] { boundary_named(mesh, "outr"); }),
               "on = \"outr\": the mesh has no boundary of this name; there are: \"bottom\", \"left\", \"outer\", "
               "\"right\", \"top\"; did you mean \"outer\"?");
@@ -60,7 +60,7 @@ TEST(MeshNames, Unknown_MeshWithoutNames_SaysSo) {
 TEST(MeshNames, Unknown_RegionOrNodes_ListsBoth) {
     EXPECT_EQ(message_of([] { region_or_nodes_named(test::rectangle_mesh(), "rokc"); }),
               "on = \"rokc\": the mesh has no region, boundary or nodes of this name; there are: \"rock\", \"clay\", "
-              "\"bottom\", \"corner\", \"left\", \"outer\", \"right\", \"top\"");
+              "\"bottom\", \"corner\", \"left\", \"outer\", \"right\", \"top\"; did you mean \"rock\"?");
 }
 
 TEST(MeshNames, Ambiguous_RegionAndNodesOfOneName_AreRefusedUnlessTheSame) {
@@ -70,14 +70,6 @@ TEST(MeshNames, Ambiguous_RegionAndNodesOfOneName_AreRefusedUnlessTheSame) {
     mesh.node_sets["rock"] = {0, 1};
     EXPECT_EQ(message_of([&] { region_or_nodes_named(mesh, "rock"); }),
               "on = \"rock\": both a region and a set of nodes have this name");
-}
-
-TEST(NearestWord, Distance_OneSlipPerThreeLetters_IsSuggested) {
-    const std::vector<std::string> words{"hole", "outer", "left_boundary"};
-    EXPECT_EQ(nearest_word("hoe", words), "hole");
-    EXPECT_EQ(nearest_word("left-bundary", words), "left_boundary");
-    EXPECT_EQ(nearest_word("top", words), "");
-    EXPECT_EQ(nearest_word("x", {}), "");
 }
 
 }  // namespace

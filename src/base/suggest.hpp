@@ -1,12 +1,12 @@
 #pragma once
-// "did you mean …?"
+// "did you mean …?": the name that a misspelt one was probably meant to be.
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace gneiss::deck {
+namespace gneiss {
 
 /// Least number of insertions, deletions, replacements and swaps of neighbours that turn a into b, no part being
 /// changed twice (Damerau-Levenshtein in its optimal string alignment form). Upper and lower case count as equal.
@@ -18,4 +18,4 @@ std::string_view nearest(std::string_view given, const std::vector<std::string_v
 /// ", did you mean `x`?" for the nearest candidate, or empty.
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& candidates);
 
-}  // namespace gneiss::deck
+}  // namespace gneiss

@@ -1,11 +1,9 @@
-#include "io/deck/suggest.hpp"
-
-#include <fmt/format.h>
+#include "base/suggest.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-namespace gneiss::deck {
+namespace gneiss {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     const auto same = [](char p, char q) {
@@ -43,7 +41,7 @@ std::string_view nearest(std::string_view given, const std::vector<std::string_v
 
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& candidates) {
     const std::string_view name = nearest(given, candidates);
-    return name.empty() ? std::string() : fmt::format(", did you mean `{}`?", name);
+    return name.empty() ? std::string() : ", did you mean `" + std::string(name) + "`?";
 }
 
-}  // namespace gneiss::deck
+}  // namespace gneiss
