@@ -43,9 +43,9 @@ def gaussian_filter(t: ArrayLike, values: ArrayLike, sigma: float, at: ArrayLike
 
 
 def gaussian_filter_from_front(function, front: float, t: ArrayLike, sigma: float) -> Array:
-    """Convolution with a Gaussian of a function that is 0 before `front` and smooth after it; `function` takes an array.
+    """Convolution with a Gaussian of a function of time that is 0 before `front` and smooth after it.
 
-    `function` is evaluated up to REACH standard deviations after the last of the times t.
+    `function` takes an array; it is evaluated up to REACH standard deviations after the last of the times t.
     """
     t = np.atleast_1d(np.asarray(t, dtype=float))
     end = float(np.max(t)) + REACH * sigma

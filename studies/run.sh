@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Runs a study: sets up what is missing, builds the program, runs every case, leaves numbers and figures.
+#
+# usage: studies/run.sh NAME [--quick] [--jobs N]
+#   NAME       a folder of studies/ with a Snakefile: borehole
+#   --quick    coarse meshes, about a minute: what CI runs
+#   --jobs N   cores to use (default: number of cores)
+#
+# Results: results/NAME/summary.json, results/NAME/figures/*.png, the runs in results/NAME/cases/, their logs in
+# results/NAME/logs/. Calling it again goes on where it stopped; what is there and up to date is not computed again.
+# $GNEISS_PRESET names the preset to build with (default: release).
+# Exit status: 0 if every run came to its end and every metric keeps its bound, 2 for wrong use, 1 otherwise.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+usage() { sed -n '2,/^set/{s/^# \{0,1\}//p}' "$0"; }
+wrong_use() { printf 'studies/run.sh: %s\n' "$1" >&2; usage >&2; exit 2; }
+
+name= profile=full jobs=$(nproc)
+while [[ $# -gt 0 ]]; do
+    case $1 in
+        --quick) profile=quick; shift ;;
+        --jobs) [[ ${2-} =~ ^[1-9][0-9]*$ ]] || wrong_use "--jobs needs a number"; jobs=$2; shift 2 ;;
+        --help | -h) usage; exit 0 ;;
+        -*) wrong_use "unknown option $1" ;;
+        *) [[ -z $name ]] || wrong_use "one study at a time"; name=$1; shift ;;
+    esac
+done
+[[ -n $name ]] || wrong_use "which study?"
+[[ -f studies/$name/Snakefile ]] || wrong_use "no study $name; there are: $(cd studies && echo */Snakefile | sed 's,/Snakefile,,g')"
+
+preset=${GNEISS_PRESET:-release}
+root=$PWD results=$PWD/results/$name
+program=$root/build/$preset/src/app/gneiss
+
+began=0
+step() { began=$SECONDS; printf '\n[%s] %s\n' "$1" "$2"; }
+took() { printf '      took %d min %02d s\n' $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)); }
+fail() { printf '\nstudies/run.sh: %s\n' "$1" >&2; exit 1; }
+
+step 1/4 "Debian packages: on a bare machine several minutes, otherwise at once"
+cmake/install_debian_packages.sh
+took
+
+step 2/4 "building the program with preset $preset in build/$preset: some minutes the first time"
+cmake --preset "$preset" >/dev/null || fail "configuring failed; if build/$preset is left over from another place, delete it"
+NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target gneiss_app </dev/null \
+    || fail "the build failed; the first error is above"
+[[ -x $program ]] || fail "the build left no $program"
+took
+
+mkdir -p "$results"
+step 3/4 "study $name, $profile, $jobs jobs at once; runs in results/$name/cases"
+snakemake=(/usr/bin/snakemake -s "studies/$name/Snakefile" --directory "$results" --cores "$jobs"
+           --config "program=$program" "profile=$profile")
+# A run that was killed leaves a lock behind. Nobody else writes into this folder: take it away.
+"${snakemake[@]}" --unlock >/dev/null 2>&1 || true
+# Of snakemake's talk: what begins, how far it is, and everything from the first error on.
+"${snakemake[@]}" --keep-going --rerun-incomplete --show-failed-logs </dev/null 2>&1 \
+    | awk '/[Ee]rror|Exception|Traceback/ { bad = 1 }
+           bad || /^Job [0-9]+: / || /steps \(.*done$/ { print "      " $0; fflush() }' || fail "some step failed: its message is above, its log in results/$name/logs"
+took
+
+step 4/4 "metrics against what the study has to show"
+status=0
+PYTHONPATH=$root /usr/bin/python3 "studies/$name/check_metrics.py" "$results/summary.json" || status=1
+printf '\nnumbers: results/%s/summary.json   figures: results/%s/figures\n' "$name" "$name"
+exit $status
