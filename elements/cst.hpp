@@ -17,6 +17,8 @@ struct Cst {
     /// (a, b, c): edges leave from b.
     static constexpr std::array<SubTriangle, 1> sub_triangles{{{1, 0, 2}}};
     static constexpr const char* name = "cst";
+    static constexpr bool similar = true;  ///< all sub-triangles have one shape
+    static constexpr int central = -1;     ///< none is turned
 };
 
 }  // namespace gneiss

@@ -30,29 +30,51 @@ struct TriangleGeometry {
         V volume;                                    ///< thickness times initial area, m3
     };
 
+    static constexpr int n_stored = Element::similar ? 1 : Element::n_sub;
+
     Vec2<V> axis;  ///< alpha
-    std::array<Sub, Element::n_sub> sub;
-    V inverse_volume;  ///< of the whole element, 1/m3
+    std::array<Sub, n_stored> sub;
+    V inverse_volume;  ///< of the whole element, 1/m3; not used where the sub-triangles are similar
+
+    const Sub& of(int s) const { return sub[Element::similar ? 0 : s]; }
+    /// True if the sub-triangle is the stored one turned by 180 degrees: its K has the other sign.
+    static constexpr bool is_turned(int s) { return Element::similar && s == Element::central; }
+    /// The mean of values of the sub-triangles by volume.
+    template <class T>
+    T mean(const std::array<T, Element::n_sub>& values) const {
+        if constexpr (Element::n_sub == 1) {
+            return values[0];
+        } else {
+            T sum(0.0);
+            for (int s = 0; s < Element::n_sub; ++s) {
+                if constexpr (Element::similar) sum += values[s];
+                else sum += sub[s].volume * values[s];
+            }
+            if constexpr (Element::similar) return (1.0 / Element::n_sub) * sum;
+            else return inverse_volume * sum;
+        }
+    }
 };
 
 /// From node positions, m, shape (n_nodes), the unit vector alpha, and the thickness, m.
 template <class Element>
 TriangleGeometry<Element, double> triangle_geometry(const std::array<Vec2<double>, Element::n_nodes>& x,
                                                     const Vec2<double>& axis, double thickness) {
-    TriangleGeometry<Element, double> geometry{};
+    using Geometry = TriangleGeometry<Element, double>;
+    Geometry geometry{};
     geometry.axis = axis;
     const Vec2<double> beta = turned(axis);
     double volume = 0;
-    for (int s = 0; s < Element::n_sub; ++s) {
+    for (int s = 0; s < Geometry::n_stored; ++s) {
         const auto& [a, b, c] = Element::sub_triangles[s];
         const Vec2<double> edge_a = x[a] - x[b], edge_c = x[c] - x[b];
         const double determinant = cross(edge_a, edge_c);
         geometry.sub[s] = {cross(axis, edge_c) / determinant, cross(beta, edge_c) / determinant,
                            cross(edge_a, axis) / determinant, cross(edge_a, beta) / determinant,
                            0.5 * thickness * determinant};
-        volume += geometry.sub[s].volume;
+        volume += geometry.of(s).volume;
     }
-    geometry.inverse_volume = 1 / volume;
+    geometry.inverse_volume = 1 / (Element::similar ? Element::n_sub * volume : volume);
     return geometry;
 }
 
@@ -67,8 +89,9 @@ template <class Element, class T, class V>
 std::array<Vec2<T>, 2> axes_images(const std::array<Vec2<T>, Element::n_nodes>& u,
                                    const TriangleGeometry<Element, V>& geometry, int s) {
     const auto& [a, b, c] = Element::sub_triangles[s];
-    const auto& sub = geometry.sub[s];
-    const Vec2<T> d_a = u[a] - u[b], d_c = u[c] - u[b];
+    const auto& sub = geometry.of(s);
+    const bool is_turned = geometry.is_turned(s);
+    const Vec2<T> d_a = is_turned ? u[b] - u[a] : u[a] - u[b], d_c = is_turned ? u[b] - u[c] : u[c] - u[b];
     return {sub.k_a_alpha * d_a + sub.k_c_alpha * d_c, sub.k_a_beta * d_a + sub.k_c_beta * d_c};
 }
 
@@ -77,20 +100,17 @@ TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Ele
                                                    const TriangleGeometry<Element, V>& geometry) {
     TriangleKinematics<Element, T> kinematics{};
     const Vec2<T> axis{T(geometry.axis.x), T(geometry.axis.y)};
-    T change(0.0);
+    std::array<T, Element::n_sub> change;
 #pragma GCC unroll 4
     for (int s = 0; s < Element::n_sub; ++s) {
         const auto [h_alpha, h_beta] = axes_images(u, geometry, s);
         kinematics.point[s] = point_kinematics(axis, h_alpha, h_beta);
-        if constexpr (sampling == Sampling::mean && Element::n_sub > 1)
-            change += geometry.sub[s].volume * kinematics.point[s].area_strain;
+        change[s] = kinematics.point[s].area_strain;
     }
-    if constexpr (Element::n_sub == 1) {
-        kinematics.volume_strain = kinematics.point[0].area_strain;
-    } else if constexpr (sampling == Sampling::mean) {
-        kinematics.volume_strain = geometry.inverse_volume * change;
+    if constexpr (sampling == Sampling::mean) {
+        kinematics.volume_strain = geometry.mean(change);
     } else {
-        kinematics.volume_strain = kinematics.point[Element::central].area_strain;
+        kinematics.volume_strain = change[Element::central];
     }
     return kinematics;
 }
@@ -112,13 +132,19 @@ template <class Element, class T, class V>
 void subtract_stress(const Vec2<T>& p_alpha, const Vec2<T>& p_beta, const TriangleGeometry<Element, V>& geometry, int s,
                      std::array<Vec2<T>, Element::n_nodes>& f) {
     const auto& [a, b, c] = Element::sub_triangles[s];
-    const auto& sub = geometry.sub[s];
+    const auto& sub = geometry.of(s);
     const Vec2<T> q_alpha = sub.volume * p_alpha, q_beta = sub.volume * p_beta;
     const Vec2<T> g_a = sub.k_a_alpha * q_alpha + sub.k_a_beta * q_beta;
     const Vec2<T> g_c = sub.k_c_alpha * q_alpha + sub.k_c_beta * q_beta;
-    f[a] = f[a] - g_a;
-    f[c] = f[c] - g_c;
-    f[b] += g_a + g_c;
+    if (geometry.is_turned(s)) {
+        f[a] += g_a;
+        f[c] += g_c;
+        f[b] = f[b] - (g_a + g_c);
+    } else {
+        f[a] = f[a] - g_a;
+        f[c] = f[c] - g_c;
+        f[b] += g_a + g_c;
+    }
 }
 
 /// What a law answers in one element.
@@ -139,19 +165,17 @@ TriangleStress<Element, Law, T> triangle_stress(
     const std::array<typename Law::template Memory<V>, Element::n_sub>& memory) {
     TriangleStress<Element, Law, T> stress{};
     stress.volume = law.volume(kinematics.volume_strain);
-    T sum(0.0);
+    std::array<T, Element::n_sub> q;
 #pragma GCC unroll 4
     for (int s = 0; s < Element::n_sub; ++s) {
         if constexpr (given && TakesGivenStress<Law>)
             stress.point[s] = law.stress_at(kinematics.point[s], stress.volume, memory[s]);
         else
             stress.point[s] = law.stress(kinematics.point[s], stress.volume, memory[s]);
-        if constexpr (!Law::uniform_q && Element::n_sub > 1) sum += geometry.sub[s].volume * stress.point[s].q;
+        q[s] = stress.point[s].q;
     }
-    if constexpr (Law::uniform_q || Element::n_sub == 1)
-        stress.q = stress.point[0].q;
-    else
-        stress.q = geometry.inverse_volume * sum;
+    if constexpr (Law::uniform_q) stress.q = q[0];
+    else stress.q = geometry.mean(q);
     return stress;
 }
 
@@ -176,17 +200,17 @@ std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T
                                                          const TriangleGeometry<Element, V>& geometry) {
     std::array<PointRates<T>, Element::n_sub> rates{};
     const K inverse_s_v = K(1.0) / (K(1.0) + kinematics.volume_strain);
-    T mean(0.0), centre(0.0);
+    std::array<T, Element::n_sub> area_rate;
     for (int s = 0; s < Element::n_sub; ++s) {
         const auto [alpha, beta] = axes_images(v, geometry, s);
         rates[s].alpha = alpha;
         rates[s].beta = beta;
         const Vec2<K> c_alpha = cofactor_alpha(kinematics.point[s]), c_beta = cofactor_beta(kinematics.point[s]);
-        const T area_rate = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
-        mean += geometry.sub[s].volume * area_rate;
-        if (s == Element::n_sub - 1) centre = area_rate;  // the central sub-triangle is the last
+        area_rate[s] = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
     }
-    const T change = sampling == Sampling::mean ? T(geometry.inverse_volume * mean) : centre;
+    T change;
+    if constexpr (sampling == Sampling::mean) change = geometry.mean(area_rate);
+    else change = area_rate[Element::central];
     for (auto& rate : rates) rate.volume = inverse_s_v * change;
     return rates;
 }
@@ -200,7 +224,7 @@ T add_viscous_force(const ViscousStress& viscosity, const TriangleKinematics<Ele
     for (int s = 0; s < Element::n_sub; ++s) {
         const PointStress<T> stress = viscosity.stress(kinematics.point[s], rates[s]);
         subtract_stress(stress.p_alpha, stress.p_beta, geometry, s, f);
-        power += geometry.sub[s].volume * (dot(stress.p_alpha, rates[s].alpha) + dot(stress.p_beta, rates[s].beta));
+        power += geometry.of(s).volume * (dot(stress.p_alpha, rates[s].alpha) + dot(stress.p_beta, rates[s].beta));
     }
     return power;
 }

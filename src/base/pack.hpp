@@ -19,7 +19,8 @@ inline constexpr std::size_t pack_alignment = Pack::arch_type::alignment() < 16 
 constexpr std::size_t padded(std::size_t n) { return (n + pack_width - 1) / pack_width * pack_width; }
 
 /// Gathers the pairs values[2 i], values[2 i + 1] for the W indices i into an x and a y pack.
-inline void gather_pairs(const double* values, const std::int32_t* index, Pack& x, Pack& y) {
+template <class Index>
+inline void gather_pairs(const double* values, const Index* index, Pack& x, Pack& y) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     // Even lanes in one register, odd lanes in the other: unpacking then restores the order.
     const auto pair = [&](int lane) { return _mm_loadu_pd(values + 2 * static_cast<std::ptrdiff_t>(index[lane])); };
@@ -51,7 +52,8 @@ inline void gather_pairs(const double* values, const std::int32_t* index, Pack& 
 }
 
 /// Adds the W pairs (x, y) to values[2 i], values[2 i + 1], lane after lane: an index may occur more than once.
-inline void scatter_add_pairs(double* values, const std::int32_t* index, const Pack& x, const Pack& y) {
+template <class Index>
+inline void scatter_add_pairs(double* values, const Index* index, const Pack& x, const Pack& y) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     const auto add = [&](int lane, __m128d pair) {
         double* target = values + 2 * static_cast<std::ptrdiff_t>(index[lane]);

@@ -65,12 +65,18 @@ inline constexpr Coefficients angular_response = [] {
     return product(angular_strain, ratio);
 }();
 
-/// x (c_1 + x (c_2 + ...)), no constant term.
+/// c_1 x + c_2 x^2 + ..., by Estrin's scheme: half the latency of Horner's, which is what a pack waits for.
 inline Pack evaluate(const Coefficients& c, const Pack& x) {
-    Pack y(c[degree]);
-    for (int n = degree - 1; n >= 1; --n) y = xsimd::fma(y, x, Pack(c[n]));
-    return y * x;
+    static_assert(degree == 9);
+    const auto pair = [&](int n, const Pack& at) { return xsimd::fma(Pack(c[n + 1]), at, Pack(c[n])); };
+    const Pack x2 = x * x, x4 = x2 * x2;
+    const Pack low = xsimd::fma(pair(3, x), x2, pair(1, x)), high = xsimd::fma(pair(7, x), x2, pair(5, x));
+    return x * xsimd::fma(xsimd::fma(Pack(c[9]), x4, high), x4, low);
 }
+
+// The library functions stay out of line: a kernel that inlines them at every use has no registers left for itself.
+[[gnu::noinline, gnu::cold]] inline Pack library_log1p(const Pack& x) { return xsimd::log1p(x); }
+[[gnu::noinline, gnu::cold]] inline Pack library_atan(const Pack& x) { return xsimd::atan(x); }
 
 inline bool all_small(const Pack& x) { return xsimd::all(xsimd::abs(x) < Pack(limit)); }
 
@@ -78,7 +84,9 @@ inline bool all_small(const Pack& x) { return xsimd::all(xsimd::abs(x) < Pack(li
 
 inline double ln1p(double x) { return std::log1p(x); }
 inline Pack ln1p(const Pack& x) {
-    return series::all_small(x) ? series::evaluate(series::ln1p, x) : xsimd::log1p(x);
+    if (series::all_small(x)) [[likely]]
+        return series::evaluate(series::ln1p, x);
+    return series::library_log1p(x);
 }
 template <int N, class V>
 Dual<N, V> ln1p(const Dual<N, V>& x) {
@@ -95,14 +103,16 @@ struct AngularStrain {
 /// @param c cotangent of the current angle, (alpha . beta)/(alpha x beta)
 template <class T>
 AngularStrain<T> angular_strain(const T& c) {
-    using std::atan;
-    using xsimd::atan;
+    T t;
     if constexpr (std::is_same_v<T, Pack>) {
-        if (series::all_small(c))
+        if (series::all_small(c)) [[likely]]
             return {series::evaluate(series::angular_strain, c),
                     T(1.0) + series::evaluate(series::angle_ratio_minus_1, c)};
+        t = (2.0 / std::numbers::pi) * series::library_atan(c);
+    } else {
+        using std::atan;
+        t = (2.0 / std::numbers::pi) * T(atan(c));
     }
-    const T t = (2.0 / std::numbers::pi) * T(atan(c));
     return {ln1p(T(-t)), T(1.0) / (T(1.0) - t)};
 }
 
@@ -110,7 +120,8 @@ AngularStrain<T> angular_strain(const T& c) {
 template <class T>
 T angular_response(const T& c) {
     if constexpr (std::is_same_v<T, Pack>) {
-        if (series::all_small(c)) return series::evaluate(series::angular_response, c);
+        if (series::all_small(c)) [[likely]]
+            return series::evaluate(series::angular_response, c);
     }
     const AngularStrain<T> angle = angular_strain(c);
     return angle.strain * angle.ratio;

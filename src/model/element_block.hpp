@@ -23,6 +23,7 @@ using PackVector = std::vector<double, xsimd::aligned_allocator<double, pack_ali
 /// What a block is made from, beside its law.
 struct BlockGeometry {
     std::vector<std::int32_t> elements;     ///< numbers in the mesh, ascending
+    bool straight = false;                  ///< composites: every mid-side node is in the middle of its side
     std::vector<double> axis_angle;         ///< per element of the block: direction of alpha, rad
     std::vector<std::array<double, 3>> in_situ_stress;  ///< per element, Cauchy xx, yy, xy, Pa; empty: none
     double thickness = 1;                   ///< m
@@ -66,17 +67,25 @@ public:
     virtual bool viscous() const = 0;
     virtual std::size_t bytes_per_element() const = 0;  ///< read in a force evaluation, nodal data apart
 
-    /// Where each element's nodal forces go: node numbers at first, slots of the workspace once the assembly is planned.
-    /// Shape (packs, n_nodes, pack_width).
-    virtual std::span<std::int32_t> targets() = 0;
+    /// Nodes of the elements, shape (packs, n_nodes, pack_width); lanes behind the last element repeat it, without volume.
+    virtual std::span<const std::int32_t> nodes() const = 0;
+    /// The same as positions among the nodes of a chunk, set by the assembly: 16 bits that stay in the nearest cache.
+    virtual std::span<std::uint16_t> local_nodes() = 0;
 
     virtual void initial_memory(double* z, double* history) const = 0;
     virtual void add_mass(std::span<double> mass) const = 0;
 
-    /// Adds the nodal forces of packs [first, last) to workspace pairs.
+    /// Pairs of the nodes of a chunk, by local_nodes().
+    struct LocalNodes {
+        const double* u;
+        const double* v;  ///< read where the block is viscous
+        double* f;        ///< added to
+    };
+    /// Adds the nodal forces of packs [first, last).
+    /// @param at  for z and history; u and v come from `local`
     /// @return an inverted element (local number), or `none`
     virtual std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
-                                     double* workspace) const = 0;
+                                     const LocalNodes& local) const = 0;
     /// z' at given z.
     virtual void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const = 0;
 

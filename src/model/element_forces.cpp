@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -9,8 +10,8 @@
 namespace gneiss {
 namespace {
 
-/// Sub-triangles per chunk. Large enough that few nodes are shared between chunks (about 15 %), small enough that two
-/// thousand elements still occupy two threads.
+/// Sub-triangles per chunk. Large enough that few nodes are shared between chunks (about 15 %), small enough that its
+/// nodes stay in the nearest cache and that two thousand elements still occupy two threads.
 constexpr std::size_t chunk_size = 1024;
 
 }  // namespace
@@ -33,39 +34,44 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
 }
 
 void ElementForces::plan() {
-    constexpr std::int32_t nobody = -1;
-    std::vector<std::int32_t> owner(n_nodes_, nobody), last_visitor(n_nodes_, nobody), slot_of(n_nodes_);
-    struct Share {
-        std::int32_t node, slot;
-    };
-    std::vector<Share> shares;
-    auto next_slot = static_cast<std::int32_t>(n_nodes_);
-    for (std::size_t c = 0; c < chunks_.size(); ++c) {
-        const auto chunk = static_cast<std::int32_t>(c);
-        const std::size_t stride = static_cast<std::size_t>(blocks_[chunks_[c].block]->n_nodes()) * pack_width;
-        for (std::int32_t& target : blocks_[chunks_[c].block]->targets().subspan(
-                 chunks_[c].first * stride, (chunks_[c].last - chunks_[c].first) * stride)) {
-            const auto node = static_cast<std::size_t>(target);
-            if (owner[node] == nobody) owner[node] = chunk;
-            if (owner[node] == chunk) continue;
-            if (last_visitor[node] != chunk) {
-                last_visitor[node] = chunk;
-                slot_of[node] = next_slot;
-                shares.push_back({target, next_slot++});
-            }
-            target = slot_of[node];
+    constexpr std::int32_t unseen = -1;
+    std::vector<std::int32_t> local(n_nodes_, unseen), touched(n_nodes_, 0);
+    for (Chunk& chunk : chunks_) {
+        const std::size_t stride = static_cast<std::size_t>(blocks_[chunk.block]->n_nodes()) * pack_width;
+        const std::size_t first = chunk.first * stride, count = (chunk.last - chunk.first) * stride;
+        const auto nodes = blocks_[chunk.block]->nodes().subspan(first, count);
+        const auto local_nodes = blocks_[chunk.block]->local_nodes().subspan(first, count);
+        chunk.first_node = chunk_nodes_.size();
+        chunk_nodes_.insert(chunk_nodes_.end(), nodes.begin(), nodes.end());
+        const auto own = chunk_nodes_.begin() + static_cast<std::ptrdiff_t>(chunk.first_node);
+        std::sort(own, chunk_nodes_.end());
+        chunk_nodes_.erase(std::unique(own, chunk_nodes_.end()), chunk_nodes_.end());
+        chunk.last_node = chunk_nodes_.size();
+        largest_chunk_ = std::max(largest_chunk_, chunk.last_node - chunk.first_node);
+        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i) {
+            const auto node = static_cast<std::size_t>(chunk_nodes_[i]);
+            local[node] = static_cast<std::int32_t>(i - chunk.first_node);
+            ++touched[node];
         }
+        for (std::size_t i = 0; i < count; ++i)
+            local_nodes[i] = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
     }
-    std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.node < b.node; });
-    for (const Share& share : shares) {
-        if (shared_nodes_.empty() || shared_nodes_.back() != share.node) {
-            shared_nodes_.push_back(share.node);
-            slot_starts_.push_back(slots_.size());
-        }
-        slots_.push_back(share.slot);
+
+    // slots of shared nodes: by node, and for one node by chunk, which is the order of chunk_nodes_
+    std::vector<std::size_t> next(n_nodes_, 0);
+    for (std::size_t node = 0; node < n_nodes_; ++node) {
+        if (touched[node] < 2) continue;
+        shared_nodes_.push_back(static_cast<std::int32_t>(node));
+        slot_starts_.push_back(n_slots_);
+        next[node] = n_slots_;
+        n_slots_ += static_cast<std::size_t>(touched[node]);
     }
-    slot_starts_.push_back(slots_.size());
-    workspace_.assign(2 * static_cast<std::size_t>(next_slot), 0.0);
+    slot_starts_.push_back(n_slots_);
+    for (const std::int32_t node : chunk_nodes_) {
+        const auto n = static_cast<std::size_t>(node);
+        destination_.push_back(touched[n] < 2 ? node : -1 - static_cast<std::int32_t>(next[n]++));
+    }
+    slot_forces_.assign(2 * n_slots_, 0.0);
 }
 
 bool ElementForces::viscous() const {
@@ -104,35 +110,60 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
         }
         return at;
     };
+    prepare_scratch();
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
         const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-        inverted_[static_cast<std::size_t>(c)] = blocks_[chunk.block]->add_force(
-            chunk.first, chunk.last, evaluation_of(chunk.block), workspace_.data());
+        inverted_[static_cast<std::size_t>(c)] = chunk_force(chunk, evaluation_of(chunk.block), f);
     }
-    for (std::size_t c = 0; c < chunks_.size(); ++c) {
-        if (inverted_[c] == ElementBlock::none) continue;
-        std::fill(workspace_.begin(), workspace_.end(), 0.0);
-        throw_inverted(chunks_[c].block, inverted_[c], evaluation_of(chunks_[c].block), trial.t);
-    }
-    reduce(f);
+    for (std::size_t c = 0; c < chunks_.size(); ++c)
+        if (inverted_[c] != ElementBlock::none)
+            throw_inverted(chunks_[c].block, inverted_[c], evaluation_of(chunks_[c].block), trial.t);
+    add_shared(f);
 }
 
-void ElementForces::reduce(std::span<double> f) const {
-    parallel_ranges(n_nodes_, [&](std::size_t first, std::size_t last) {
-        double* nodal = workspace_.data();
-        std::copy(nodal + 2 * first, nodal + 2 * last, f.data() + 2 * first);
-        std::fill(nodal + 2 * first, nodal + 2 * last, 0.0);
-        auto shared = std::lower_bound(shared_nodes_.begin(), shared_nodes_.end(), static_cast<std::int32_t>(first));
-        for (; shared != shared_nodes_.end() && *shared < static_cast<std::int32_t>(last); ++shared) {
-            const auto k = static_cast<std::size_t>(shared - shared_nodes_.begin());
-            double* sum = f.data() + 2 * *shared;
-            for (std::size_t i = slot_starts_[k]; i < slot_starts_[k + 1]; ++i) {
-                double* slot = nodal + 2 * static_cast<std::size_t>(slots_[i]);
-                sum[0] += slot[0];
-                sum[1] += slot[1];
-                slot[0] = slot[1] = 0.0;
+void ElementForces::prepare_scratch() const {
+    const auto n_threads = static_cast<std::size_t>(omp_get_max_threads());
+    if (scratch_.size() < n_threads) scratch_.resize(n_threads);
+    for (std::vector<double>& scratch : scratch_) scratch.resize(6 * largest_chunk_);
+}
+
+std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at,
+                                          std::span<double> f) const {
+    const ElementBlock& block = *blocks_[chunk.block];
+    const std::size_t n = chunk.last_node - chunk.first_node;
+    double* u = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
+    double *local_f = u + 2 * n, *v = u + 4 * n;
+    const std::int32_t* nodes = chunk_nodes_.data() + chunk.first_node;
+    const auto gather = [&](const double* from, double* to) {
+        for (std::size_t i = 0; i < n; ++i) {
+            to[2 * i] = from[2 * nodes[i]];
+            to[2 * i + 1] = from[2 * nodes[i] + 1];
+        }
+    };
+    gather(at.u, u);
+    if (block.viscous()) gather(at.v, v);
+    std::fill(local_f, local_f + 2 * n, 0.0);
+    const std::ptrdiff_t inverted = block.add_force(chunk.first, chunk.last, at, {u, v, local_f});
+    const std::int32_t* destination = destination_.data() + chunk.first_node;
+    for (std::size_t i = 0; i < n; ++i) {
+        double* to = destination[i] >= 0 ? f.data() + 2 * destination[i] : slot_forces_.data() + 2 * (-1 - destination[i]);
+        to[0] = local_f[2 * i];
+        to[1] = local_f[2 * i + 1];
+    }
+    return inverted;
+}
+
+void ElementForces::add_shared(std::span<double> f) const {
+    parallel_ranges(shared_nodes_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            double x = 0, y = 0;
+            for (std::size_t slot = slot_starts_[k]; slot < slot_starts_[k + 1]; ++slot) {
+                x += slot_forces_[2 * slot];
+                y += slot_forces_[2 * slot + 1];
             }
+            f[2 * static_cast<std::size_t>(shared_nodes_[k])] = x;
+            f[2 * static_cast<std::size_t>(shared_nodes_[k]) + 1] = y;
         }
     });
 }

@@ -1,9 +1,10 @@
 #pragma once
 // The internal forces of all element blocks, summed over threads in an order that does not depend on their number.
 //
-// Blocks are cut into chunks of consecutive packs. The first chunk that touches a node owns it and adds straight to the
-// node's entry of a workspace; every other chunk adds to a slot of its own behind the nodes. When all chunks are done,
-// the slots are added node by node in ascending order of chunk. Inside a chunk elements add in ascending order.
+// Blocks are cut into chunks of consecutive packs. A chunk works on copies of its nodes' displacements and forces, small
+// enough for the nearest cache, and adds its elements in ascending order. A node that only one chunk touches then has its
+// force; of a node that several chunks touch, each chunk leaves its part in a slot, and the slots are added in ascending
+// order of chunk.
 
 #include <cstdint>
 #include <memory>
@@ -41,11 +42,14 @@ public:
 
 private:
     struct Chunk {
-        std::size_t block, first, last;  ///< packs [first, last) of a block
+        std::size_t block, first, last;        ///< packs [first, last) of a block
+        std::size_t first_node = 0, last_node = 0;  ///< its nodes, in chunk_nodes_
     };
 
     void plan();
-    void reduce(std::span<double> f) const;
+    std::ptrdiff_t chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f) const;
+    void prepare_scratch() const;
+    void add_shared(std::span<double> f) const;
     [[noreturn]] void throw_inverted(std::size_t block, std::ptrdiff_t local, const ElementBlock::Evaluation& at,
                                      double t) const;
 
@@ -55,13 +59,19 @@ private:
     std::size_t n_nodes_;
     std::vector<std::int64_t> labels_;  ///< of the mesh's elements, for messages
 
+    /// Nodes of each chunk in the order of its local numbers, and where its part of the force goes: the node itself, or
+    /// -1 - slot.
+    std::vector<std::int32_t> chunk_nodes_, destination_;
+    std::size_t largest_chunk_ = 0;  ///< nodes
+
     // nodes that more than one chunk touches, ascending, and their slots by ascending chunk
     std::vector<std::int32_t> shared_nodes_;
     std::vector<std::size_t> slot_starts_;
-    std::vector<std::int32_t> slots_;
+    std::size_t n_slots_ = 0;
 
     // scratch of one evaluation at a time
-    mutable std::vector<double> workspace_;  ///< nodal pairs, then slots; all zero between evaluations
+    mutable std::vector<double> slot_forces_;           ///< pairs
+    mutable std::vector<std::vector<double>> scratch_;  ///< of each thread: u, f and v of a chunk's nodes
     mutable std::vector<std::ptrdiff_t> inverted_;
     mutable std::vector<ElementBlock::Sums> sums_;
     mutable std::vector<ElementBlock::Rates> rates_;

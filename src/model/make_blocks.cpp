@@ -1,9 +1,11 @@
 #include "model/make_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "mesh/composite.hpp"
 #include "mesh/measure.hpp"
 #include "model/blocks/make_block.hpp"
 #include "model/formula.hpp"
@@ -65,6 +67,40 @@ std::vector<std::array<double, 3>> in_situ_stress(const Mesh& mesh, const std::v
     return stress;
 }
 
+/// True if mid-side nodes stand in the middle of straight sides, to round-off.
+bool is_straight(const Mesh& mesh, std::size_t element) {
+    constexpr double round_off = 1e-15;  // of a coordinate; what a mid-point computed in one way or another may differ by
+    const std::int32_t* nodes = mesh.element(element);
+    const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[local])]; };
+    for (const auto& [a, middle, b] : composite_sides) {
+        const auto from = at(a), between = at(middle), to = at(b);
+        const double size = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(to[0]), std::abs(to[1])});
+        if (!(std::hypot(between[0] - 0.5 * (from[0] + to[0]), between[1] - 0.5 * (from[1] + to[1])) <= round_off * size))
+            return false;
+    }
+    return true;
+}
+
+BlockGeometry block_geometry(const Mesh& mesh, const std::vector<std::int32_t>& elements, const SolidOptions& solid,
+                             const MaterialOptions& material, std::vector<Problem>& problems) {
+    BlockGeometry geometry;
+    geometry.elements = elements;
+    geometry.axis_angle = axis_angles(mesh, elements, material.axes, problems);
+    try {
+        geometry.in_situ_stress = in_situ_stress(mesh, elements, material.in_situ_stress);
+    } catch (const InputError& error) {
+        for (const Problem& problem : error.problems()) problems.push_back({"in_situ_stress", problem.message});
+    }
+    if (solid.volumetric == Volumetric::centre && mesh.kind == ElementKind::compt &&
+        (material.law != LawKind::munjiza || material.stress_map != StressMap::direct))
+        problems.push_back({"", "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
+                                "stress_map = \"direct\""});
+    geometry.thickness = solid.thickness;
+    geometry.density = material.density;
+    geometry.viscosity = {material.shear_viscosity, material.bulk_viscosity};
+    return geometry;
+}
+
 std::unique_ptr<ElementBlock> make_block(const Mesh& mesh, BlockGeometry geometry, const SolidOptions& solid,
                                          const MaterialOptions& material) {
     const bool direct = material.stress_map == StressMap::direct;
@@ -87,28 +123,24 @@ std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const S
     std::vector<std::unique_ptr<ElementBlock>> blocks;
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const MaterialOptions& material = materials[m];
-        BlockGeometry geometry;
+        // straight composites apart: they need a quarter of the geometry
+        std::array<std::vector<std::int32_t>, 2> elements;
         for (std::size_t e = 0; e < mesh.n_elements(); ++e)
             if (of_region[static_cast<std::size_t>(mesh.region[e])] == static_cast<std::int32_t>(m))
-                geometry.elements.push_back(static_cast<std::int32_t>(e));
-        if (geometry.elements.empty()) continue;
-        std::vector<Problem> own;
-        if (solid.volumetric == Volumetric::centre && mesh.kind == ElementKind::compt &&
-            (material.law != LawKind::munjiza || material.stress_map != StressMap::direct))
-            own.push_back({"", "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
-                               "stress_map = \"direct\""});
-        geometry.axis_angle = axis_angles(mesh, geometry.elements, material.axes, own);
-        try {
-            geometry.in_situ_stress = in_situ_stress(mesh, geometry.elements, material.in_situ_stress);
-        } catch (const InputError& error) {
-            for (const Problem& problem : error.problems()) own.push_back({"in_situ_stress", problem.message});
+                elements[mesh.kind == ElementKind::compt && is_straight(mesh, e)].push_back(static_cast<std::int32_t>(e));
+        for (const bool straight : {false, true}) {
+            if (elements[straight].empty()) continue;
+            std::vector<Problem> own;
+            BlockGeometry geometry = block_geometry(mesh, elements[straight], solid, material, own);
+            geometry.straight = straight;
+            for (const Problem& problem : own) {
+                const Problem here{where(m), problem.where.empty() ? problem.message : problem.where + ": " + problem.message};
+                const bool known = std::any_of(problems.begin(), problems.end(),
+                                               [&](const Problem& p) { return p.message == here.message; });
+                if (!known) problems.push_back(here);
+            }
+            if (problems.empty()) blocks.push_back(make_block(mesh, std::move(geometry), solid, material));
         }
-        for (const Problem& problem : own)
-            problems.push_back({where(m), problem.where.empty() ? problem.message : problem.where + ": " + problem.message});
-        geometry.thickness = solid.thickness;
-        geometry.density = material.density;
-        geometry.viscosity = {material.shear_viscosity, material.bulk_viscosity};
-        if (problems.empty()) blocks.push_back(make_block(mesh, std::move(geometry), solid, material));
     }
     if (!problems.empty()) throw InputError(problems);
     return blocks;

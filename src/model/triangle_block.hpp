@@ -25,13 +25,14 @@ public:
     bool viscous() const override { return info_.viscosity.active(); }
     std::size_t bytes_per_element() const override {
         return (geometry_fields + Element::n_sub * (Law::n_internal + Law::n_history)) * sizeof(double) +
-               2 * Element::n_nodes * sizeof(std::int32_t);
+               Element::n_nodes * sizeof(std::uint16_t);
     }
-    std::span<std::int32_t> targets() override { return targets_; }
+    std::span<const std::int32_t> nodes() const override { return nodes_; }
+    std::span<std::uint16_t> local_nodes() override { return local_nodes_; }
 
     void initial_memory(double* z, double* history) const override;
     void add_mass(std::span<double> mass) const override;
-    std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at, double* workspace) const override;
+    std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at, const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
@@ -43,7 +44,7 @@ public:
 
 private:
     static constexpr int n_dof = 2 * Element::n_nodes;
-    static constexpr std::size_t geometry_fields = 3 + 5 * Element::n_sub;
+    static constexpr std::size_t geometry_fields = Element::similar ? 7 : 3 + 5 * Element::n_sub;
     static constexpr std::size_t geometry_stride = geometry_fields * pack_width;
     static constexpr std::size_t z_stride = Element::n_sub * Law::n_internal * pack_width;
     static constexpr std::size_t history_stride = Element::n_sub * Law::n_history * pack_width;
@@ -58,7 +59,9 @@ private:
     // ---- loads and stores of one pack; the scalar twins pick one lane ------------------------------------------------
     PackGeometry geometry(std::size_t pack) const;
     TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
-    Nodal<Pack> gather(const double* pairs, std::size_t pack) const;
+    template <class Index>
+    static Nodal<Pack> gather(const double* pairs, const Index* index);
+    Nodal<Pack> gather(const double* pairs, std::size_t pack) const { return gather(pairs, nodes_.data() + pack * index_stride); }
     Nodal<double> gather_one(const double* pairs, std::size_t local) const;
     /// What a sub-triangle remembers at the start: the stress in situ, on the axes.
     typename Law::template Memory<double> memory_at_rest(std::size_t local) const;
@@ -66,8 +69,9 @@ private:
     Memory<double> memory_of(const Evaluation& at, std::size_t local) const;
     static void store_memory(const Memory<Pack>& memory, double* z, double* history, std::size_t pack);
 
+    /// Flattened: everything is inlined, so that a pack stays in registers from the gather to the scatter.
     template <bool given, bool update, bool viscous>
-    std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at, double* workspace) const;
+    [[gnu::flatten]] std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at, const LocalNodes& local) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack& smallest) const;
     /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
     Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
@@ -76,7 +80,7 @@ private:
     Law law_;
     PackVector geometry_;                ///< (packs, fields, width): axis, sub-triangles, inverse volume
     std::vector<std::int32_t> nodes_;    ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
-    std::vector<std::int32_t> targets_;
+    std::vector<std::uint16_t> local_nodes_;
 };
 
 // ---- construction --------------------------------------------------------------------------------------------------
@@ -113,9 +117,9 @@ TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeom
             put(sub.k_c_beta);
             put(padding ? 0.0 : sub.volume);  // exerts no force, has no energy
         }
-        put(g.inverse_volume);
+        if constexpr (!Element::similar) put(g.inverse_volume);
     }
-    targets_ = nodes_;
+    local_nodes_.resize(nodes_.size());
 }
 
 template <class Element, Sampling sampling, class Law>
@@ -166,8 +170,8 @@ void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) con
         for (int s = 0; s < Element::n_sub; ++s) {
             for (const int node : Element::sub_triangles[s]) {
                 const auto n = static_cast<std::size_t>(nodes_[pack * index_stride + node * pack_width + lane]);
-                mass[2 * n] += info_.density * g.sub[s].volume / 3;
-                mass[2 * n + 1] += info_.density * g.sub[s].volume / 3;
+                mass[2 * n] += info_.density * g.of(s).volume / 3;
+                mass[2 * n + 1] += info_.density * g.of(s).volume / 3;
             }
         }
     }
@@ -193,7 +197,7 @@ auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> 
         sub.k_c_beta = take();
         sub.volume = take();
     }
-    g.inverse_volume = take();
+    if constexpr (!Element::similar) g.inverse_volume = take();
     return g;
 }
 
@@ -215,14 +219,14 @@ auto TriangleBlock<Element, sampling, Law>::geometry_of(std::size_t local) const
         sub.k_c_beta = take();
         sub.volume = take();
     }
-    g.inverse_volume = take();
+    if constexpr (!Element::similar) g.inverse_volume = take();
     return g;
 }
 
 template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::gather(const double* pairs, std::size_t pack) const -> Nodal<Pack> {
+template <class Index>
+auto TriangleBlock<Element, sampling, Law>::gather(const double* pairs, const Index* index) -> Nodal<Pack> {
     Nodal<Pack> values;
-    const std::int32_t* index = nodes_.data() + pack * index_stride;
 #pragma GCC unroll 6
     for (int node = 0; node < Element::n_nodes; ++node, index += pack_width)
         gather_pairs(pairs, index, values[node].x, values[node].y);
@@ -289,10 +293,11 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t 
 template <class Element, Sampling sampling, class Law>
 template <bool given, bool update, bool viscous>
 std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
-                                                                      const Evaluation& at, double* workspace) const {
+                                                                      const Evaluation& at, const LocalNodes& nodal) const {
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
-        const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+        const std::uint16_t* index = local_nodes_.data() + pack * index_stride;
+        const auto kinematics = triangle_kinematics<Element, sampling>(gather(nodal.u, index), g);
         const Pack smallest = smallest_jacobian(kinematics);
         if (!every_lane(smallest > Pack(0.0))) [[unlikely]]
             return inverted_lane(pack, smallest);
@@ -301,7 +306,7 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
         Nodal<Pack> f;
         triangle_force(kinematics, g, stress, f);
         if constexpr (viscous) {
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            const auto rates = triangle_rates<Element, sampling>(gather(nodal.v, index), kinematics, g);
             add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
         }
         if constexpr (update) {
@@ -310,20 +315,19 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
                 updated[s] = law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
             store_memory(updated, at.z_updated, at.history_updated, pack);
         }
-        const std::int32_t* target = targets_.data() + pack * index_stride;
 #pragma GCC unroll 6
-        for (int node = 0; node < Element::n_nodes; ++node, target += pack_width)
-            scatter_add_pairs(workspace, target, f[node].x, f[node].y);
+        for (int node = 0; node < Element::n_nodes; ++node)
+            scatter_add_pairs(nodal.f, index + node * pack_width, f[node].x, f[node].y);
     }
     return none;
 }
 
 template <class Element, Sampling sampling, class Law>
 std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
-                                                                const Evaluation& at, double* workspace) const {
+                                                                const Evaluation& at, const LocalNodes& local) const {
     const auto run = [&]<bool given, bool update>() {
-        return viscous() ? add_force_packs<given, update, true>(first, last, at, workspace)
-                         : add_force_packs<given, update, false>(first, last, at, workspace);
+        return viscous() ? add_force_packs<given, update, true>(first, last, at, local)
+                         : add_force_packs<given, update, false>(first, last, at, local);
     };
     if constexpr (Law::n_internal > 0) {
         if (at.given) return run.template operator()<true, false>();
@@ -364,11 +368,11 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
             const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
             const auto volume = law_.volume(kinematics.volume_strain);
             for (int s = 0; s < Element::n_sub; ++s)
-                stored += g.sub[s].volume * law_.energy_density(kinematics.point[s], volume);
+                stored += g.of(s).volume * law_.energy_density(kinematics.point[s], volume);
         } else {
             const Memory<Pack> memory = load_memory(at, pack);
             for (int s = 0; s < Element::n_sub; ++s)
-                stress_power += g.sub[s].volume * memory[s].z[Law::n_internal - 1];
+                stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
         }
         if (viscous() && at.v != nullptr) {
             const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
@@ -386,7 +390,7 @@ Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeomet
     std::array<Pack, Element::n_nodes> mass;
     mass.fill(Pack(0.0));
     for (int s = 0; s < Element::n_sub; ++s)
-        for (const int node : Element::sub_triangles[s]) mass[node] += g.sub[s].volume;
+        for (const int node : Element::sub_triangles[s]) mass[node] += g.of(s).volume;
     // padded lanes have no mass: any number does, they have no stiffness either
     for (Pack& m : mass) m = Pack(1.0) / xsimd::sqrt(xsimd::max(m * Pack(info_.density / 3), Pack(1e-300)));
     std::array<Pack, n_dof * n_dof> a;
