@@ -1,8 +1,8 @@
 #include "integrators/central_difference.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -11,9 +11,9 @@
 namespace gneiss {
 namespace {
 
-// How often the bound is looked at: twice as rarely while it stands still, twice as often when it moves. A change of the
-// step by the safety factor takes far longer than this in any resolved motion.
-constexpr double first_interval = 16, shortest_interval = 4, longest_interval = 512;
+// How often the bound is looked at: twice as rarely while it stands still, twice as often when it moves. A change of
+// the step by the safety factor takes far longer than this in any resolved motion.
+constexpr double first_interval = 64, shortest_interval = 8, longest_interval = 1024;
 constexpr double still = 0.005, moving = 0.02;  // relative change of the critical step between two looks
 
 }  // namespace
@@ -56,7 +56,8 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
         absorbing_.push_back(node);
     }
     const std::size_t n = constraints.size();
-    for (auto* values : {&prescribed_, &rate_, &net_, &net_before_, &reactions_, &half_velocity_}) values->assign(n, 0.0);
+    for (auto* values : {&prescribed_, &middle_, &end_velocity_, &net_, &net_before_, &reactions_})
+        values->assign(n, 0.0);
 }
 
 void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& state) {
@@ -65,8 +66,8 @@ void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& 
     const double before = critical_;
     critical_ = critical_time_step(bound);
     if (!(critical_ > 0 && std::isfinite(critical_)))
-        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}", state.t,
-                                           bound.omega, bound.damping_rate));
+        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}",
+                                           state.t, bound.omega, bound.damping_rate));
     const double change = std::abs(critical_ - before) / critical_;
     if (bound_interval_ == 0)
         bound_interval_ = first_interval;
@@ -85,14 +86,16 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     evaluate_bound(system, state);
     if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
 
-    // prescribed velocities hold from the start; prescribed displacements say where the node is, not how fast it moves
-    const auto constraints = system.constraints();
-    system.constraint_values(state.t, state.last_event, prescribed_);
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        if (constraints[k].kind == Constraint::Kind::velocity) state.v[constraints[k].dof] = prescribed_[k];
-        half_velocity_[k] = state.v[constraints[k].dof];
+    hold_constraints(system, state, why);
+    if (why == StartReason::fresh && !next_.z.empty()) {
+        // prescribed displacements may have strained the solid
+        system.force_and_update(state, Trial::of(state), a_, next_.z, next_.history);
+        state.z.swap(next_.z);
+        state.history.swap(next_.history);
+    } else {
+        system.force(state, Trial::of(state), a_);
     }
-    system.force(state, Trial::of(state), a_);
+    const auto constraints = system.constraints();
     for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[constraints[k].dof];
     subtract_damping(system, state.v, net_);
     const double c = system.damping().mass_proportional;
@@ -108,6 +111,28 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     }
 }
 
+void CentralDifference::hold_constraints(const SemiDiscrete& system, State& state, StartReason why) {
+    const auto constraints = system.constraints();
+    if (constraints.empty()) return;
+    system.constraint_values(state.t, state.last_event, prescribed_);
+    system.constraint_values(state.t + 0.5 * dt_, state.last_event, middle_);
+    system.constraint_values(state.t + dt_, state.last_event, end_velocity_);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const std::size_t dof = constraints[k].dof;
+        const double before = state.v[dof];
+        if (constraints[k].kind == Constraint::Kind::velocity) {
+            state.v[dof] = prescribed_[k];
+        } else {
+            if (why == StartReason::fresh) state.u[dof] = prescribed_[k];
+            state.v[dof] = (-3 * prescribed_[k] + 4 * middle_[k] - end_velocity_[k]) / dt_;  // order 2, from the right
+        }
+        // a jump of the velocity is work of the support; before the first step it belongs to the initial energy
+        if (why != StartReason::fresh)
+            state.path.support_work +=
+                0.5 * system.lumped_mass()[dof] * (state.v[dof] * state.v[dof] - before * before);
+    }
+}
+
 double CentralDifference::choose_step(double remaining) const {
     const double limit = options_.dt > 0 ? options_.dt : options_.safety * critical_;
     // equal steps up to the next stop; a remainder of round-off is no step of its own
@@ -120,10 +145,10 @@ StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, 
     const double remaining = t_stop - state.t;
     const double dt = choose_step(remaining);
     if (options_.dt > critical_)
-        throw RecoverableError(fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s",
-                                           options_.dt, critical_, state.t));
+        throw RecoverableError(
+            fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s", options_.dt,
+                        critical_, state.t));
 
-    dt_before_ = dt_;
     dt_ = dt;
     next_.t = dt == remaining ? t_stop : state.t + dt;
     next_.last_event = state.last_event;
@@ -137,7 +162,8 @@ StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, 
     for (std::size_t k = 0; k < net_.size(); ++k) {
         // what the support adds: the change of this degree's kinetic energy that the other forces do not explain
         const std::size_t dof = system.constraints()[k].dof;
-        const double kinetic = 0.5 * system.lumped_mass()[dof] * (next_.v[dof] * next_.v[dof] - state.v[dof] * state.v[dof]);
+        const double kinetic =
+            0.5 * system.lumped_mass()[dof] * (next_.v[dof] * next_.v[dof] - state.v[dof] * state.v[dof]);
         next_.path.support_work += kinetic - 0.5 * (net_[k] + net_before_[k]) * (next_.u[dof] - state.u[dof]);
     }
     std::swap(state, next_);
@@ -166,24 +192,27 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
                 v_next[i] += half * a[i];
             }
         });
+        for (std::size_t k = 0; k < end_velocity_.size(); ++k) next_.v[system.constraints()[k].dof] = end_velocity_[k];
     }
 }
 
 void CentralDifference::prescribe(const SemiDiscrete& system, const State& state, double dt) {
     const auto constraints = system.constraints();
     if (constraints.empty()) return;
+    system.constraint_values(state.t + 0.5 * dt, next_.last_event, middle_);
     system.constraint_values(next_.t, next_.last_event, prescribed_);
-    system.constraint_values(state.t + 0.5 * dt, next_.last_event, rate_);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const std::size_t dof = constraints[k].dof;
         if (constraints[k].kind == Constraint::Kind::displacement) {
             next_.u[dof] = prescribed_[k];
             next_.v[dof] = (next_.u[dof] - state.u[dof]) / dt;
+            end_velocity_[k] =
+                (state.u[dof] - 4 * middle_[k] + 3 * prescribed_[k]) / dt;  // order 2, from this step alone
         } else {
-            next_.v[dof] = rate_[k];
-            next_.u[dof] = state.u[dof] + dt * rate_[k];
+            next_.v[dof] = middle_[k];
+            next_.u[dof] = state.u[dof] + dt * middle_[k];
+            end_velocity_[k] = prescribed_[k];
         }
-        rate_[k] = next_.v[dof];
     }
 }
 
@@ -208,7 +237,10 @@ void CentralDifference::kick(const SemiDiscrete& system, const State& state, dou
             a[i] = force_per_mass - c * v[i];
         }
     });
-    settle_constraints(system, dt);
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        next_.v[constraints[k].dof] = end_velocity_[k];
+        a_[constraints[k].dof] = 0;
+    }
     for (const AbsorbingNode& node : absorbing_) {
         const auto x = 2 * static_cast<std::size_t>(node.block.node), y = x + 1;
         const Damping::Block& block = node.block;
@@ -225,31 +257,14 @@ void CentralDifference::kick(const SemiDiscrete& system, const State& state, dou
         } else if (!node.y_prescribed) {
             v[y] = (right_y - yx * v[x]) / yy;
         }
-        if (!node.x_prescribed)
-            a[x] = inverse_mass[x] * (node.f.x - block.xx * v[x] - block.xy * v[y]) - c * v[x];
-        if (!node.y_prescribed)
-            a[y] = inverse_mass[y] * (node.f.y - block.xy * v[x] - block.yy * v[y]) - c * v[y];
+        if (!node.x_prescribed) a[x] = inverse_mass[x] * (node.f.x - block.xx * v[x] - block.xy * v[y]) - c * v[x];
+        if (!node.y_prescribed) a[y] = inverse_mass[y] * (node.f.y - block.xy * v[x] - block.yy * v[y]) - c * v[y];
     }
     subtract_damping(system, next_.v, net_);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const std::size_t dof = constraints[k].dof;
         reactions_[k] = (next_.v[dof] - state.v[dof]) / (dt * inverse_mass_[dof]) - net_[k];
     }
-}
-
-void CentralDifference::settle_constraints(const SemiDiscrete& system, double dt) {
-    const auto constraints = system.constraints();
-    if (constraints.empty()) return;
-    system.constraint_values(next_.t, next_.last_event, prescribed_);
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const std::size_t dof = constraints[k].dof;
-        // a prescribed displacement has the velocity that its last two steps extrapolate to, of order 2
-        next_.v[dof] = constraints[k].kind == Constraint::Kind::velocity
-                           ? prescribed_[k]
-                           : rate_[k] + (rate_[k] - half_velocity_[k]) * dt / (dt + dt_before_);
-        a_[dof] = 0;
-    }
-    half_velocity_.swap(rate_);
 }
 
 void CentralDifference::subtract_damping(const SemiDiscrete& system, std::span<const double> v,
@@ -278,7 +293,6 @@ double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State
 
 IntegratorMemory CentralDifference::save() const {
     return {{"acceleration", a_},
-            {"half_velocity", half_velocity_},
             {"net_force", net_},
             {"reactions", reactions_},
             {"step", {dt_, critical_, bound_interval_, steps_since_bound_}}};
@@ -289,11 +303,11 @@ void CentralDifference::load(const SemiDiscrete& system, State&, const Integrato
     const auto take = [&memory](const char* name, std::size_t size) -> const std::vector<double>& {
         const auto found = memory.find(name);
         if (found == memory.end() || found->second.size() != size)
-            throw InputError("checkpoint", fmt::format("central_difference: `{}` is missing or has not {} values", name, size));
+            throw InputError("checkpoint",
+                             fmt::format("central_difference: `{}` is missing or has not {} values", name, size));
         return found->second;
     };
     a_ = take("acceleration", a_.size());
-    half_velocity_ = take("half_velocity", half_velocity_.size());
     net_ = take("net_force", net_.size());
     reactions_ = take("reactions", reactions_.size());
     const std::vector<double>& step = take("step", 4);

@@ -5,7 +5,8 @@
 //     u(n+1) = u(n) + dt v(n+1/2),    (1 + dt c/2 + dt/2 M^-1 C) v(n+1) = v(n+1/2) + dt/2 M^-1 f(n+1)
 //
 // which is the leapfrog [ (1/dt + c/2) v(n+1/2) = (1/dt - c/2) v(n-1/2) + M^-1 f(n) ] with v(n) the mean of its two
-// neighbours. Order 2, also in damping; absorbing boundaries are solved node by node.
+// neighbours. Order 2, also in damping; absorbing boundaries are solved node by node. Reactions take the inertia of a
+// support as its mean over the step: exact where it does not accelerate, order 1 where it does.
 
 #include <vector>
 
@@ -39,42 +40,44 @@ public:
     /// Critical step of the bound last evaluated, s, without the safety factor.
     double critical_time_step() const { return critical_; }
 
-    /// Stability limit with natural frequency omega (rad/s) and the damping rate c (1/s) of forces that are evaluated at
-    /// the velocity v(n-1/2) + dt/2 a(n-1): dt^2 omega^2 + 4 dt c <= 4, from an eigenvalue -1 of the recursion.
+    /// Stability limit with natural frequency omega (rad/s) and the damping rate c (1/s) of forces that are evaluated
+    /// at the velocity v(n-1/2) + dt/2 a(n-1): dt^2 omega^2 + 4 dt c <= 4, from an eigenvalue -1 of the recursion.
     static double critical_time_step(const FrequencyBound& bound);
 
 private:
     void evaluate_bound(const SemiDiscrete& system, const State& state);
     void allocate(const SemiDiscrete& system);
+    /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
+    void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
     double choose_step(double remaining) const;
     void kick_and_drift(const SemiDiscrete& system, const State& state, double dt);
     void prescribe(const SemiDiscrete& system, const State& state, double dt);
     void kick(const SemiDiscrete& system, const State& state, double dt);
-    void settle_constraints(const SemiDiscrete& system, double dt);
     /// Subtracts C v from forces on the constrained degrees of freedom.
     void subtract_damping(const SemiDiscrete& system, std::span<const double> v, std::vector<double>& net) const;
 
     /// A node of an absorbing boundary, solved for its two velocities together.
     struct AbsorbingNode {
         Damping::Block block;
-        Vec2<double> v_half, f;                  ///< before the step's second half
+        Vec2<double> v_half, f;  ///< before the step's second half
         bool x_prescribed, y_prescribed;
         std::size_t x_constraint, y_constraint;  ///< where prescribed
     };
 
     Options options_;
     std::vector<double> inverse_mass_;
-    std::vector<double> a_;                ///< acceleration at the accepted state; f while a step is under way
-    std::vector<double> v_half_;           ///< v(n+1/2), kept where the force needs another velocity
+    std::vector<double> a_;       ///< acceleration at the accepted state; f while a step is under way
+    std::vector<double> v_half_;  ///< v(n+1/2), kept where the force needs another velocity
     State next_;
-    double dt_ = 0, dt_before_ = 0;        ///< last step and the one before, s
+    double dt_ = 0;  ///< last step, s
     double critical_ = 0;
-    double bound_interval_ = 0;            ///< steps between two evaluations of the bound, adapted to how it changes
+    double bound_interval_ = 0;  ///< steps between two evaluations of the bound, adapted to how it changes
     double steps_since_bound_ = 0;
 
     // constrained degrees of freedom
-    std::vector<double> prescribed_, rate_, net_, net_before_, reactions_;
-    std::vector<double> half_velocity_;    ///< v(n-1/2)
+    std::vector<double> prescribed_, middle_;  ///< values at the end and in the middle of a step
+    std::vector<double> end_velocity_;         ///< v(n+1) of prescribed motion
+    std::vector<double> net_, net_before_, reactions_;
     std::vector<AbsorbingNode> absorbing_;
     mutable std::vector<double> partial_;
 };

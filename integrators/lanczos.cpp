@@ -17,8 +17,12 @@ constexpr double enough = 0.01;  ///< residual of the largest Ritz value, relati
 class ScaledStiffness {
 public:
     ScaledStiffness(const SemiDiscrete& system, const State& state)
-        : system_(system), state_(state), scale_(static_cast<Eigen::Index>(state.u.size())), u_(state.u),
-          plus_(state.u.size()), minus_(state.u.size()) {
+        : system_(system),
+          state_(state),
+          scale_(static_cast<Eigen::Index>(state.u.size())),
+          u_(state.u),
+          plus_(state.u.size()),
+          minus_(state.u.size()) {
         const auto mass = system.lumped_mass();
         for (std::size_t i = 0; i < mass.size(); ++i) scale_[static_cast<Eigen::Index>(i)] = 1 / std::sqrt(mass[i]);
         for (const Constraint& constraint : system.constraints()) scale_[static_cast<Eigen::Index>(constraint.dof)] = 0;
@@ -54,7 +58,8 @@ public:
 
 private:
     void evaluate(const Vector& direction, double size, std::vector<double>& f) {
-        for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = state_.u[i] + size * direction[static_cast<Eigen::Index>(i)];
+        for (std::size_t i = 0; i < u_.size(); ++i)
+            u_[i] = state_.u[i] + size * direction[static_cast<Eigen::Index>(i)];
         system_.force(state_, {state_.t, state_.last_event, u_, state_.v, {}}, f);
     }
 
