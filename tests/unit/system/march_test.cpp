@@ -1,0 +1,202 @@
+#include "system/march.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What happened, in order.
+using Diary = std::vector<std::string>;
+
+std::string number(double t) {
+    std::string text = std::to_string(t);
+    return text.substr(0, text.find_last_not_of('0') + 1);
+}
+
+/// Happens at given instants with a given outcome; keeps its own place, apart from other events.
+class ScriptedEvent final : public Event {
+public:
+    ScriptedEvent(std::string name, std::vector<double> times, EventOutcome outcome, Diary& diary)
+        : name_(std::move(name)), times_(std::move(times)), outcome_(outcome), diary_(diary) {}
+    std::string name() const override { return name_; }
+    std::optional<double> next_time(const State&) const override {
+        return next_ < times_.size() ? std::optional(times_[next_]) : std::nullopt;
+    }
+    EventOutcome apply(State& accepted) override {
+        diary_.push_back(name_ + " at " + number(accepted.t));
+        accepted.last_event = times_[next_++];
+        return outcome_;
+    }
+
+private:
+    std::string name_;
+    std::vector<double> times_;
+    EventOutcome outcome_;
+    Diary& diary_;
+    std::size_t next_ = 0;
+};
+
+/// Has events and nothing else.
+class EventsOnly final : public SemiDiscrete {
+public:
+    std::vector<std::unique_ptr<Event>> list;
+
+    Layout layout() const override { return {}; }
+    State initial_state() const override { return {}; }
+    std::span<const double> lumped_mass() const override { return {}; }
+    const Damping& damping() const override { return damping_; }
+    std::span<const Constraint> constraints() const override { return {}; }
+    void constraint_values(double, double, std::span<double>) const override {}
+    bool force_depends_on_velocity() const override { return false; }
+    void force(const State&, const Trial&, std::span<double>) const override {}
+    void force_and_update(const State&, const Trial&, std::span<double>, std::span<double>,
+                          std::span<double>) const override {}
+    void internal_rate(const State&, const Trial&, std::span<double>) const override {}
+    double smallest_length() const override { return 1; }
+    FrequencyBound frequency_bound(const State&) const override { return {1, 0}; }
+    StoredEnergies stored_energies(const State&) const override { return {}; }
+    void add_path_energies(const State&, State&) const override {}
+    std::span<const std::unique_ptr<Event>> events() const override { return list; }
+
+private:
+    Damping damping_;
+};
+
+/// Steps of at most 1 s that end at t_stop; writes what it is asked to do.
+class ScriptedIntegrator final : public Integrator {
+public:
+    explicit ScriptedIntegrator(Diary& diary) : diary_(diary) {}
+    double fails_at = infinity;
+
+    std::string name() const override { return "scripted"; }
+    void start(const SemiDiscrete&, State& state, StartReason why) override {
+        const char* const reasons[] = {"fresh", "reinitialise", "resize"};
+        diary_.push_back(std::string("start ") + reasons[static_cast<int>(why)] + " at " + number(state.t));
+    }
+    StepReport advance(const SemiDiscrete&, State& state, double t_stop) override {
+        const double before = state.t;
+        if (before >= fails_at) throw RecoverableError("told to fail");
+        state.t = std::min(before + 1, t_stop);
+        diary_.push_back("step to " + number(state.t));
+        return {state.t, state.t - before, 0, 1};
+    }
+    double kinetic_energy(const SemiDiscrete&, const State&) const override { return 0; }
+    std::span<const double> reactions() const override { return {}; }
+    IntegratorMemory save() const override { return {}; }
+    void load(const SemiDiscrete&, State&, const IntegratorMemory&) override {}
+
+private:
+    Diary& diary_;
+};
+
+class MarchOverTime : public testing::Test {
+protected:
+    void add_event(const std::string& name, std::vector<double> times, EventOutcome outcome) {
+        system.list.push_back(std::make_unique<ScriptedEvent>(name, std::move(times), outcome, diary));
+    }
+    MarchOutcome run(bool resumed = false) { return march.run(system, integrator, state, resumed); }
+
+    Diary diary;
+    EventsOnly system;
+    ScriptedIntegrator integrator{diary};
+    State state;
+    March march{.t_end = 2.5, .next_stop = {}, .after_start = {}, .after_step = {}};
+};
+
+TEST_F(MarchOverTime, NothingSpecial_StepsToTheEnd) {
+    EXPECT_EQ(run(), MarchOutcome::finished);
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "step to 2.", "step to 2.5"));
+    EXPECT_EQ(state.t, 2.5);
+}
+
+TEST_F(MarchOverTime, Stops_EndStepsExactly) {
+    march.next_stop = [](double t) { return t < 0.75 ? 0.75 : t < 1.25 ? 1.25 : infinity; };
+    run();
+    EXPECT_THAT(diary,
+                ElementsAre("start fresh at 0.", "step to 0.75", "step to 1.25", "step to 2.25", "step to 2.5"));
+}
+
+TEST_F(MarchOverTime, EventsDueAtTheStart_HappenBeforeTheIntegratorStarts) {
+    add_event("early", {-1, 0}, EventOutcome::reinitialise);
+    run();
+    EXPECT_EQ(diary[0], "early at 0.");
+    EXPECT_EQ(diary[1], "early at 0.");
+    EXPECT_EQ(diary[2], "start fresh at 0.");
+    EXPECT_EQ(std::count(diary.begin(), diary.end(), "start reinitialise at 0."), 0);
+}
+
+TEST_F(MarchOverTime, EventInsideAStep_EndsTheStepAndRestartsTheIntegrator) {
+    add_event("jump", {1.5}, EventOutcome::reinitialise);
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "step to 1.5", "jump at 1.5",
+                                   "start reinitialise at 1.5", "step to 2.5"));
+    EXPECT_EQ(state.last_event, 1.5);
+}
+
+TEST_F(MarchOverTime, EventWithoutConsequence_DoesNotRestart) {
+    add_event("look", {1.5}, EventOutcome::none);
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "step to 1.5", "look at 1.5", "step to 2.5"));
+}
+
+TEST_F(MarchOverTime, EventsAtOneInstant_AllHappenAndTheStrongestCounts) {
+    add_event("look", {1}, EventOutcome::none);
+    add_event("split", {1}, EventOutcome::resize);
+    add_event("jump", {1}, EventOutcome::reinitialise);
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "look at 1.", "split at 1.", "jump at 1.",
+                                   "start resize at 1.", "step to 2.", "step to 2.5"));
+}
+
+TEST_F(MarchOverTime, EventAtTheEnd_StillHappensAndLaterOnesDoNot) {
+    add_event("last", {2.5, 3}, EventOutcome::reinitialise);
+    run();
+    EXPECT_EQ(std::count(diary.begin(), diary.end(), "last at 2.5"), 1);
+    EXPECT_EQ(state.t, 2.5);
+}
+
+TEST_F(MarchOverTime, Callbacks_SeeTheStartOnceAndEveryStepAfterItsEvents) {
+    add_event("jump", {1.5}, EventOutcome::reinitialise);
+    march.after_start = [&] { diary.push_back("after start"); };
+    march.after_step = [&](const StepReport& step) {
+        diary.push_back("after step " + number(step.dt));
+        return true;
+    };
+    EXPECT_EQ(run(), MarchOutcome::finished);
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "after start", "step to 1.", "after step 1.", "step to 1.5",
+                                   "jump at 1.5", "start reinitialise at 1.5", "after step 0.5", "step to 2.5",
+                                   "after step 1."));
+}
+
+TEST_F(MarchOverTime, AfterStepSaysStop_RunIsInterruptedThere) {
+    march.after_step = [](const StepReport& step) { return step.t < 2; };
+    EXPECT_EQ(run(), MarchOutcome::interrupted);
+    EXPECT_EQ(state.t, 2);
+}
+
+TEST_F(MarchOverTime, Resumed_NeitherStartsNorRepeatsEvents) {
+    add_event("jump", {1.5}, EventOutcome::reinitialise);
+    state.t = 0.5;
+    march.after_start = [&] { diary.push_back("after start"); };
+    run(true);
+    EXPECT_THAT(diary, ElementsAre("after start", "step to 1.5", "jump at 1.5", "start reinitialise at 1.5",
+                                   "step to 2.5"));
+}
+
+TEST_F(MarchOverTime, FailedStep_LeavesTheLastAcceptedState) {
+    integrator.fails_at = 2;
+    EXPECT_THROW(run(), RecoverableError);
+    EXPECT_EQ(state.t, 2);
+}
+
+}  // namespace
+}  // namespace gneiss
