@@ -1,5 +1,7 @@
 #include "app/build_case.hpp"
 
+#include <fmt/format.h>
+
 #include "base/errors.hpp"
 #include "integrators/central_difference.hpp"
 #include "mesh/make_mesh.hpp"
@@ -25,14 +27,16 @@ void collect(std::vector<Problem>& problems, Step step) {
 std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOptions& options,
                                               const std::vector<std::unique_ptr<ElementBlock>>& blocks) {
     const std::vector<BoundaryEdge> edges = absorbing_edges(mesh, options.boundaries);
-    if (edges.empty()) return {};
+    // Without blocks the materials are at fault: that is reported already.
+    if (edges.empty() || blocks.empty()) return {};
     std::vector<PlaneStiffness> stiffness(mesh.n_elements());
     for (const auto& block : blocks)
         for (std::size_t local = 0; local < block->n_elements(); ++local)
             stiffness[static_cast<std::size_t>(block->element(local))] =
                 plane_stiffness(block->tangent_constants(local), block->axis_angle(local), block->density());
     return absorbing_blocks(
-        mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; }, options.solid.thickness);
+        mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
+        options.solid.thickness);
 }
 
 }  // namespace
@@ -41,7 +45,7 @@ Case build_case(CaseOptions options) {
     Case built;
     MeshReport report;
     built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
-    built.warnings = std::move(report.warnings);
+    for (const std::string& warning : report.warnings) built.warnings.push_back("mesh: " + warning);
 
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
@@ -51,10 +55,16 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
     collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
     parts.damping.mass_proportional = options.run.mass_damping;
-    const CentralDifference::Options central{options.integrator.safety, options.integrator.dt, options.integrator.lanczos};
+    const CentralDifference::Options central{options.integrator.safety, options.integrator.dt,
+                                             options.integrator.lanczos};
     collect(problems, [&] { built.integrator = std::make_unique<CentralDifference>(central); });
+    collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
 
+    for (const double time : options.output.field_times)
+        if (time > options.run.t_end)
+            built.warnings.push_back(fmt::format(
+                "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
     built.options = std::move(options);
     return built;
@@ -65,7 +75,8 @@ double memory_estimate(const Case& built) {
     // u, v, mass, inverse mass, a, next u, v, workspace; z and history twice
     constexpr double nodal_vectors = 9, memory_vectors = 2;
     double bytes = (nodal_vectors * static_cast<double>(layout.n_dof) +
-                    memory_vectors * static_cast<double>(layout.n_internal + layout.n_history)) * sizeof(double);
+                    memory_vectors * static_cast<double>(layout.n_internal + layout.n_history)) *
+                   sizeof(double);
     for (const auto& block : built.system->elements().blocks())
         bytes += static_cast<double>(block->bytes_per_element()) * static_cast<double>(block->n_elements());
     bytes += static_cast<double>(built.mesh.n_elements()) * (built.mesh.nodes_per_element() * 4.0 + 12.0) +

@@ -1,10 +1,11 @@
 #pragma once
-// From options to the objects that compute: mesh, solid, integrator.
+// From options to the objects that compute: mesh, solid, integrator, probes.
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/tables.hpp"
 #include "mesh/mesh.hpp"
 #include "model/options.hpp"
 #include "model/solid_system.hpp"
@@ -15,12 +16,13 @@ namespace gneiss {
 struct Case {
     CaseOptions options;
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< of the mesh
+    std::vector<std::string> warnings;  ///< "mesh: …"
     std::unique_ptr<SolidSystem> system;
     std::unique_ptr<Integrator> integrator;
+    ProbeTable probes;
 };
 
-/// @throws InputError with every problem that shows before the first step
+/// @throws InputError with everything that is wrong with the mesh, or else with what the deck puts on it
 Case build_case(CaseOptions options);
 
 /// Bytes that the system and its integrator hold per element, about.

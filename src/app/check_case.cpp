@@ -1,28 +1,39 @@
 #include "app/check_case.hpp"
 
-#include <omp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
-#include <fmt/format.h>
 #include <ostream>
 
 #include "app/build_case.hpp"
-#include "app/tables.hpp"
-#include "base/flush_denormals.hpp"
+#include "app/schedule.hpp"
+#include "app/threads.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/progress_line.hpp"
 #include "mesh/measure.hpp"
 #include "system/march.hpp"
 
 namespace gneiss {
+namespace {
 
-void check_case(const std::filesystem::path& deck, const std::vector<std::string>& set, int threads, std::ostream& out) {
+/// The names of one map that another one has not.
+template <class Map, class Other>
+std::string names_of(const Map& map, const Other& without) {
+    std::string names;
+    for (const auto& [name, unused] : map)
+        if (!without.contains(name)) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+}  // namespace
+
+void check_case(const std::filesystem::path& deck, const std::vector<std::string>& set, int threads,
+                std::ostream& out) {
     using Clock = std::chrono::steady_clock;
-    if (threads > 0) omp_set_num_threads(threads);
-    flush_denormals();
+    const std::string too_many_threads = use_threads(threads);
     Case built = build_case(read_deck(deck, set));
-    const ProbeTable probes(built.mesh, built.options.output.probes);
 
     // a few steps: long enough to be timed, far too few to go anywhere
     constexpr double measured_seconds = 0.3;
@@ -42,20 +53,35 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     };
     march.run(*built.system, *built.integrator, state, false);
 
-    const MeshSize size = mesh_size(built.mesh);
     const double n_steps = std::ceil(built.options.run.t_end / dt), per_step = t_measured / steps;
-    const auto line = [&out](const char* what, const std::string& value) { out << fmt::format("{:<22}{}\n", what, value); };
+    const auto line = [&out](const char* what, const std::string& value) {
+        if (!value.empty()) out << fmt::format("{:<20}{}\n", what, value);
+    };
     line("deck", deck.string() + ": no errors");
+    line("warning", too_many_threads);
     for (const std::string& warning : built.warnings) line("warning", warning);
-    line("elements", fmt::format("{} {}", size.n_elements, built.mesh.kind == ElementKind::cst ? "cst" : "compt"));
+
+    const Mesh& mesh = built.mesh;
+    const MeshSize size = mesh_size(mesh);
+    line("elements", fmt::format("{} {}", size.n_elements, mesh.kind == ElementKind::cst ? "cst" : "compt"));
     line("nodes", fmt::format("{}", size.n_nodes));
     line("sub-edges", fmt::format("{:.4g} to {:.4g} m", size.smallest_edge, size.largest_edge));
+    line("area", fmt::format("{:.6g} m2", size.area));
+    line("regions", fmt::format("{}", fmt::join(mesh.region_names, ", ")));
+    line("boundaries", names_of(mesh.boundaries, decltype(mesh.boundaries){}));
+    line("points", names_of(mesh.node_sets, mesh.boundaries));
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
-    line("step", fmt::format("{:.4g} s ({})", dt, built.options.integrator.dt > 0 ? "given" : "safety x critical"));
-    line("steps", fmt::format("about {:.0f}", n_steps));
-    line("time per step", fmt::format("{:.3g} ms on {} threads, {:.3g} ns per element", 1e3 * per_step, omp_get_max_threads(),
+
+    const double dt_given = built.options.integrator.dt;
+    line("step", dt_given > 0 ? fmt::format("{:.4g} s, fixed", dt)
+                              : fmt::format("{:.4g} s, {} of the critical step", dt, built.options.integrator.safety));
+    line("steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, built.options.run.t_end));
+    const Schedule schedule(built.options);
+    line("output",
+         fmt::format("about {:.0f} rows, at most {:.0f} frames", schedule.expected_rows(dt), schedule.most_frames()));
+    line("time per step", fmt::format("{:.3g} ms on {}, {:.3g} ns per element", 1e3 * per_step, threads_text(),
                                       1e9 * per_step / static_cast<double>(size.n_elements)));
-    line("expected run time", duration_text(n_steps * per_step) + ", output apart");
+    line("run time", fmt::format("about {}, output apart", duration_text(n_steps * per_step)));
     line("memory", fmt::format("about {:.3g} MB", memory_estimate(built) / 1e6));
 }
 

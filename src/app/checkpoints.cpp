@@ -54,8 +54,9 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
     if (checkpoint.get<std::string>("mesh") != mesh_fingerprint(built.mesh))
         throw InputError(path.string(), "was written for another mesh than the deck gives");
     if (checkpoint.get<std::string>("integrator") != built.integrator->name())
-        throw InputError(path.string(), fmt::format("was written by integrator `{}`, the deck has `{}`",
-                                                    checkpoint.get<std::string>("integrator"), built.integrator->name()));
+        throw InputError(path.string(),
+                         fmt::format("was written by integrator `{}`, the deck has `{}`",
+                                     checkpoint.get<std::string>("integrator"), built.integrator->name()));
     const Layout layout = built.system->layout();
     progress.step = static_cast<std::size_t>(checkpoint.get<std::int64_t>("step"));
     progress.initial_energy = checkpoint.get<double>("initial_energy");

@@ -1,12 +1,16 @@
 // The command line of gneiss. Exit codes: 0 done, 2 bad input, 3 the computation failed, 130 or 143 interrupted.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "app/check_case.hpp"
 #include "app/run_case.hpp"
+#include "app/threads.hpp"
 #include "base/errors.hpp"
+#include "base/suggest.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/version.hpp"
 
@@ -16,54 +20,85 @@ using namespace gneiss;
 
 /// @param topic  empty: everything
 void list(const std::string& topic) {
-    std::string topics;
-    bool found = false;
-    for (const Listing& listing : deck_listings()) {
-        topics += (topics.empty() ? "" : ", ") + listing.topic;
+    const std::vector<Listing> listings = deck_listings();
+    std::vector<std::string_view> topics;
+    std::string text;
+    for (const Listing& listing : listings) {
+        topics.push_back(listing.topic);
         if (!topic.empty() && listing.topic != topic) continue;
-        found = true;
-        std::cout << fmt::format("{} (key {})\n", listing.topic, listing.where);
-        for (const Listing::Entry& entry : listing.entries) std::cout << fmt::format("  {:<22}{}\n", entry.name, entry.meaning);
-        std::cout << '\n';
+        text += fmt::format("{}{}  ({} = ...)\n", text.empty() ? "" : "\n", listing.topic, listing.where);
+        for (const Listing::Entry& entry : listing.entries)
+            text += fmt::format("  {:<20}{}\n", entry.name, entry.meaning);
     }
-    if (!found) throw InputError("gneiss list", fmt::format("given `{}`, must be one of {}", topic, topics));
+    if (text.empty())
+        throw InputError("gneiss list", fmt::format("given `{}`, must be one of {}{}", topic, fmt::join(topics, ", "),
+                                                    suggestion(topic, topics)));
+    std::cout << text;
+}
+
+/// What the command line asks for.
+struct Arguments {
+    RunArguments run;
+    std::vector<std::string> topic;  ///< words of it: "stress maps"
+};
+
+void add_case_options(CLI::App& command, RunArguments& run) {
+    command.add_option("deck", run.deck, "the case (docs/deck.md lists every key)")->required()->type_name("CASE.toml");
+    command.add_option("--set", run.set, "laid over the deck: --set run.t_end=0.01 integrator.safety=0.5")
+        ->type_name("KEY=VALUE");
+    command.add_option("--threads", run.threads, "number of threads [all cores]")
+        ->check(CLI::Range(1, 1024).description(""))
+        ->type_name("N");
+}
+
+/// @return exit code
+int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
+    const RunArguments& run = arguments.run;
+    if (app.got_subcommand("list")) {
+        list(fmt::format("{}", fmt::join(arguments.topic, " ")));
+        return exit_code::done;
+    }
+    wait_briefly(run.threads, argv);
+    if (app.got_subcommand("run")) return run_case(run);
+    check_case(run.deck, run.set, run.threads, std::cout);
+    return exit_code::done;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app("gneiss: plane problems in anisotropic solids, under any time integrator", "gneiss");
-    app.set_version_flag("--version", version_string());
-    app.require_subcommand(1);
+    app.set_version_flag("--version", "gneiss " + version_string());
+    app.require_subcommand(0, 1);
 
-    RunArguments run;
+    Arguments arguments;
+    RunArguments& run = arguments.run;
     CLI::App* run_command = app.add_subcommand("run", "run a case; results go to a folder of their own");
-    run_command->add_option("deck", run.deck, "TOML deck (docs/deck.md lists every key)")->required();
-    run_command->add_option("--out", run.out, "folder of the results [results/NAME of the deck]");
-    run_command->add_option("--set", run.set, "overrides, such as --set run.t_end=0.01")->type_name("KEY=VALUE");
-    run_command->add_option("--threads", run.threads, "number of threads [all cores]")->check(CLI::Range(1, 1024));
-    run_command->add_option("--restart", run.restart, "go on from a checkpoint.h5");
-    run_command->add_flag("--quiet", run.quiet, "no progress on the terminal");
-
-    CLI::App* check_command = app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");
-    check_command->add_option("deck", run.deck, "TOML deck")->required();
-    check_command->add_option("--set", run.set, "overrides, such as --set run.t_end=0.01")->type_name("KEY=VALUE");
-    check_command->add_option("--threads", run.threads, "number of threads [all cores]")->check(CLI::Range(1, 1024));
-
-    std::string topic;
-    CLI::App* list_command = app.add_subcommand("list", "list elements, materials, integrators, loads, ...");
-    list_command->add_option("topic", topic, "one topic only");
+    add_case_options(*run_command, run);
+    run_command->add_option("--out", run.out, "folder of the results [results/CASE]")->type_name("DIR");
+    run_command->add_option("--restart", run.restart, "go on from a checkpoint.h5")->type_name("FILE");
+    run_command->add_flag("--quiet", run.quiet, "print nothing but errors");
+    CLI::App* check_command =
+        app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");
+    add_case_options(*check_command, run);
+    CLI::App* list_command = app.add_subcommand("list", "list what a deck can name: elements, materials, loads, ...");
+    list_command->add_option("topic", arguments.topic, "one of them only")->type_name("");
 
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty()) throw CLI::CallForHelp();
+    } catch (const CLI::CallForHelp& help) {
+        app.exit(help);
+        return argc > 1 ? exit_code::done : exit_code::bad_input;
+    } catch (const CLI::ExtrasError& error) {
+        if (!app.get_subcommands().empty()) return app.exit(error), exit_code::bad_input;
+        std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1], suggestion(argv[1], {"run", "check", "list"}));
+        return exit_code::bad_input;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;
     }
     try {
-        if (*run_command) return run_case(run);
-        if (*check_command) check_case(run.deck, run.set, run.threads, std::cout);
-        if (*list_command) list(topic);
-        return exit_code::done;
+        return carry_out(app, arguments, argv);
     } catch (const InputError& error) {
         std::cerr << error.what() << '\n';
         const std::size_t n = error.problems().size();

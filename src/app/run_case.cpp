@@ -1,25 +1,22 @@
 #include "app/run_case.hpp"
 
-#include <omp.h>
-
-#include <chrono>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
+#include <chrono>
 
 #include "app/build_case.hpp"
 #include "app/checkpoints.hpp"
 #include "app/field_frames.hpp"
+#include "app/run_summary.hpp"
+#include "app/schedule.hpp"
 #include "app/tables.hpp"
+#include "app/threads.hpp"
 #include "base/errors.hpp"
-#include "base/flush_denormals.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/atomic_file.hpp"
 #include "io/output/fingerprint.hpp"
 #include "io/output/progress.hpp"
 #include "io/output/run_log.hpp"
 #include "io/output/stop_request.hpp"
-#include "io/output/summary.hpp"
 #include "io/output/version.hpp"
 #include "mesh/measure.hpp"
 #include "system/march.hpp"
@@ -27,20 +24,18 @@
 namespace gneiss {
 namespace {
 
-/// Number of the interval that t lies in, so that a row is due where it grows. A time that should be a multiple of the
-/// interval counts as one despite round-off.
-double interval_number(double t, double interval) {
-    constexpr double round_off = 1e-9;
-    return std::floor(t / interval + round_off);
-}
-
-/// The next multiple of an interval after t; infinite if there is no interval.
-double next_multiple(double t, double interval) {
-    return interval > 0 ? (interval_number(t, interval) + 1) * interval : std::numeric_limits<double>::infinity();
-}
+namespace fs = std::filesystem;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The deck as it is run: its text, then the overrides as comments.
+std::string deck_text(const RunArguments& arguments) {
+    std::string text = read_file(arguments.deck);
+    if (!arguments.set.empty() && !text.ends_with('\n')) text += '\n';
+    for (const std::string& set : arguments.set) text += "# --set " + set + '\n';
+    return text;
 }
 
 /// A run under way: what it computes, and what it writes.
@@ -50,79 +45,91 @@ public:
     int march();
 
 private:
+    void load_restart();
+    void open_results();
     EnergyLedger ledger() const;
-    double next_stop(double t) const;
+    void begin();
     bool after_step(const StepReport& step);
     void write_rows(double dt);
     void write_frame() { frames_->write(*case_.system, state_, progress_.step); }
-    void write_checkpoint() { save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_); }
-    void write_summary_file(RunStatus status, const std::string& message);
+    void write_checkpoint();
+    void write_summary_file(RunStatus status, const std::string& message = "");
+    int end(RunStatus status, const std::string& message, int code);
+    int end_failed(const RecoverableError& error);
     ProgressState progress_state() const;
 
     RunArguments arguments_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     double setup_time_ = 0;  ///< wall, s
+    StopRequest stop_request_;
+    std::string deck_text_;
     Case case_;
-    std::filesystem::path out_;
+    fs::path out_;
     std::string fingerprint_;
     std::shared_ptr<spdlog::logger> log_;
     State state_;
     RunProgress progress_;
     std::size_t first_step_ = 0;  ///< of this part of the run
     double last_dt_ = 0, balance_error_ = 0;
-    double history_interval_ = 0;
-    bool resumed_ = false;
+    bool resumed_ = false, begun_ = false;
+    std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
-    std::optional<ProbeTable> probes_;
+    std::optional<Schedule> schedule_;
     std::optional<CsvSeries> history_file_, probes_file_;
     std::optional<FieldFrames> frames_;
     std::optional<Progress> bar_;
-    StopRequest stop_request_;
 };
 
-std::string deck_text(const RunArguments& arguments) {
-    std::string text = read_file(arguments.deck);
-    for (const std::string& set : arguments.set) text += "\n--set " + set;
-    return text;
+Run::Run(const RunArguments& arguments) : arguments_(arguments) {
+    const std::string too_many_threads = use_threads(arguments.threads);
+    CaseOptions options = read_deck(arguments.deck, arguments.set);
+    deck_text_ = deck_text(arguments);
+    fingerprint_ = fingerprint_text(deck_text_);
+    case_ = build_case(std::move(options));
+    schedule_.emplace(case_.options);
+    state_ = case_.system->initial_state();
+    if (arguments.restart) load_restart();
+    open_results();
+    if (!too_many_threads.empty()) log_->warn("{}", too_many_threads);
+    first_step_ = progress_.step;
+    bar_.emplace(ProgressOptions{.quiet = arguments.quiet, .t_start = state_.t});
+    setup_time_ = seconds_since(started_);
 }
 
-Run::Run(const RunArguments& arguments) : arguments_(arguments) {
-    if (arguments.threads > 0) omp_set_num_threads(arguments.threads);
-    flush_denormals();
-    CaseOptions options = read_deck(arguments.deck, arguments.set);
-    fingerprint_ = fingerprint_text(deck_text(arguments));
-    case_ = build_case(std::move(options));
-    probes_.emplace(case_.mesh, case_.options.output.probes);
-    history_interval_ = case_.options.output.history > 0 ? case_.options.output.history : case_.options.run.t_end / 1000;
-    state_ = case_.system->initial_state();
+void Run::load_restart() {
+    const fs::path& file = *arguments_.restart;
+    other_deck_ = load_checkpoint(file, case_, state_, progress_);
+    if (other_deck_ == fingerprint_) other_deck_.clear();
+    resumed_ = true;
+    const double t_end = case_.options.run.t_end;
+    if (!(state_.t < t_end))
+        throw InputError(file.string(),
+                         fmt::format("stands at t = {:.9g} s, the deck ends at {:.9g} s: nothing is left "
+                                     "to run",
+                                     state_.t, t_end));
+}
 
-    std::string other_deck;
-    if (arguments.restart) {
-        other_deck = load_checkpoint(*arguments.restart, case_, state_, progress_);
-        if (other_deck == fingerprint_) other_deck.clear();
-        resumed_ = true;
-        if (!(state_.t < case_.options.run.t_end))
-            throw InputError(arguments.restart->string(), fmt::format("stands at t = {:.9g} s, the deck ends at {:.9g} s: "
-                             "nothing is left to run", state_.t, case_.options.run.t_end));
-    }
-
-    out_ = arguments.out.empty() ? std::filesystem::path("results") / arguments.deck.stem() : arguments.out;
+void Run::open_results() {
+    out_ = arguments_.out.empty() ? fs::path("results") / arguments_.deck.stem() : arguments_.out;
     make_folder(out_);
-    log_ = open_run_log({out_ / "run.log", resumed_, arguments.quiet, false});
-    log_->info("gneiss {}: {}, {} threads", version_string(), arguments.deck.string(), omp_get_max_threads());
+    // What an earlier run has left would pass for a result of this one.
+    if (!resumed_)
+        for (const char* name : {"checkpoint.h5", "probes.csv", "summary.json"}) fs::remove(out_ / name);
+    log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
+    log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
+    for (const std::string& set : arguments_.set) log_->info("set: {}", set);
     const MeshSize size = mesh_size(case_.mesh);
-    log_->info("mesh: {} elements, {} nodes, edges {:.4g} to {:.4g} m", size.n_elements, size.n_nodes, size.smallest_edge,
-               size.largest_edge);
-    for (const std::string& warning : case_.warnings) log_->warn("mesh: {}", warning);
-    if (!other_deck.empty()) log_->warn("restart: the checkpoint was written under another deck ({})", other_deck);
+    log_->info("mesh: {} elements, {} nodes, edges {:.4g} to {:.4g} m", size.n_elements, size.n_nodes,
+               size.smallest_edge, size.largest_edge);
+    for (const std::string& warning : case_.warnings) log_->warn("{}", warning);
+    if (resumed_) log_->info("restart: {}, t = {:.9g}", arguments_.restart->string(), state_.t);
+    if (!other_deck_.empty()) log_->warn("restart: the checkpoint was written under another deck ({})", other_deck_);
 
+    write_atomically(out_ / "deck.toml", deck_text_);
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
     history_file_.emplace(out_ / "history.csv", history_columns(), restart_time);
-    if (!probes_->empty()) probes_file_.emplace(out_ / "probes.csv", probes_->columns(), restart_time);
+    if (!case_.probes.empty()) probes_file_.emplace(out_ / "probes.csv", case_.probes.columns(), restart_time);
     frames_.emplace(out_, case_.mesh, restart_time);
-    bar_.emplace(ProgressOptions{.quiet = arguments.quiet, .t_start = state_.t});
-    first_step_ = progress_.step;
-    setup_time_ = seconds_since(started_);
 }
 
 EnergyLedger Run::ledger() const {
@@ -134,33 +141,42 @@ EnergyLedger Run::ledger() const {
     return ledger;
 }
 
-double Run::next_stop(double t) const {
-    double stop = std::min(next_multiple(t, case_.options.output.fields), next_multiple(t, case_.options.run.checkpoint));
-    for (const double time : case_.options.output.field_times)
-        if (time > t) stop = std::min(stop, time);
-    return stop;
+void Run::begin() {
+    begun_ = true;
+    if (!resumed_) {
+        const EnergyLedger at_start = ledger();
+        progress_.initial_energy = at_start.kinetic + at_start.stored.sum();
+        write_rows(0);
+        write_frame();
+    }
+    log_->info("start: t = {:.9g}, t_end = {:.9g}", state_.t, case_.options.run.t_end);
+    write_summary_file(RunStatus::running);
 }
 
 void Run::write_rows(double dt) {
     const EnergyLedger energies = ledger();
     balance_error_ = energies.balance_error();
     history_file_->row(history_row(state_.t, progress_.step, dt, energies));
-    if (probes_file_) probes_file_->row(probes_->row(*case_.system, state_));
+    if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state_));
+}
+
+void Run::write_checkpoint() {
+    // A checkpoint must not be ahead of the tables: after a crash, a restart could not bring the missing rows back.
+    history_file_->flush();
+    if (probes_file_) probes_file_->flush();
+    save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_);
 }
 
 bool Run::after_step(const StepReport& step) {
     ++progress_.step;
     last_dt_ = step.dt;
-    const double before = step.t - step.dt;
-    const auto passed = [&](double interval) {
-        return interval > 0 && interval_number(step.t, interval) > interval_number(before, interval);
-    };
-    const auto& output = case_.options.output;
-    const bool last = !(step.t < case_.options.run.t_end);
-    if (passed(history_interval_) || last) write_rows(step.dt);
-    const bool named_time = std::find(output.field_times.begin(), output.field_times.end(), step.t) != output.field_times.end();
-    if (passed(output.fields) || named_time || last) write_frame();
-    if (passed(case_.options.run.checkpoint)) write_checkpoint();
+    if (progress_.step == first_step_ + 1) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
+    if (schedule_->row_due(step)) write_rows(step.dt);
+    if (schedule_->frame_due(step)) write_frame();
+    if (schedule_->checkpoint_due(step)) {
+        write_checkpoint();
+        log_->info("checkpoint: step = {}, t = {:.9g}", progress_.step, step.t);
+    }
     history_file_->flush_if_due();
     if (probes_file_) probes_file_->flush_if_due();
     bar_->update([&] { return progress_state(); });
@@ -172,60 +188,68 @@ ProgressState Run::progress_state() const {
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
-    const EnergyLedger energies = ledger();
-    const double wall = seconds_since(started_), stepping = wall - setup_time_;
-    const auto steps = static_cast<double>(progress_.step - first_step_);
-    const auto elements = static_cast<double>(case_.mesh.n_elements());
-    RunSummary summary{status, message, case_.options.title, fingerprint_};
-    summary.groups["counts"] = {{"elements", case_.mesh.n_elements()},
-                                {"nodes", case_.mesh.n_nodes()},
-                                {"steps", progress_.step},
-                                {"threads", omp_get_max_threads()}};
-    summary.groups["time"] = {{"t_s", state_.t}, {"t_end_s", case_.options.run.t_end}, {"last_dt_s", last_dt_}};
-    summary.groups["timings"] = {{"setup_s", setup_time_}, {"steps_s", stepping}, {"wall_s", wall},
-                                 {"ns_per_element_step", steps > 0 ? 1e9 * stepping / (steps * elements) : 0.0}};
-    const auto columns = history_columns();
-    const std::vector<double> row = history_row(state_.t, progress_.step, last_dt_, energies);
-    for (std::size_t k = 3; k < columns.size(); ++k)
-        if (!columns[k].unit.empty()) summary.groups["energies_J"][columns[k].name] = row[k];
-    summary.groups["energies_J"]["initial"] = energies.initial;
-    summary.groups["balance_error"] = energies.balance_error();
+    RunSummary summary =
+        summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
+                  {state_.t, last_dt_, progress_.step, first_step_, setup_time_, seconds_since(started_), ledger()});
+    summary.status = status;
+    summary.message = message;
+    summary.deck_fingerprint = fingerprint_;
     write_summary(out_ / "summary.json", summary);
 }
 
+int Run::end(RunStatus status, const std::string& message, int code) {
+    history_file_->close();
+    if (probes_file_) probes_file_->close();
+    if (begun_) write_checkpoint();
+    write_summary_file(status, message);
+    balance_error_ = ledger().balance_error();
+    const char* word = status == RunStatus::done ? "done" : status == RunStatus::failed ? "failed" : "stopped";
+    bar_->finish(word, progress_state());
+    if (!arguments_.quiet) fmt::print(stderr, "results: {}\n", out_.string());
+    log_->info("{}: step = {}, t = {:.9g}, balance_error = {:.3g}, wall time = {:.3g} s", name_of(status),
+               progress_.step, state_.t, balance_error_, seconds_since(started_));
+    return code;
+}
+
+int Run::end_failed(const RecoverableError& error) {
+    log_->error("{}", error.what());
+    if (begun_) {
+        // The failed step has left the integrator between two states: let it start from the last good one, so that the
+        // energies and the checkpoint are those of this state.
+        try {
+            case_.integrator->start(*case_.system, state_, StartReason::reinitialise);
+        } catch (const RecoverableError& again) {
+            log_->error("{}", again.what());
+        }
+        if (history_file_->last_time() != state_.t) write_rows(last_dt_);
+    }
+    write_frame();
+    return end(RunStatus::failed, error.what(), exit_code::failed);
+}
+
 int Run::march() {
-    const auto end = [&](RunStatus status, const std::string& message, int code) {
-        history_file_->close();
-        if (probes_file_) probes_file_->close();
-        write_checkpoint();
-        write_summary_file(status, message);
-        bar_->finish(status == RunStatus::done ? "done" : status == RunStatus::failed ? "failed" : "stopped", progress_state());
-        log_->info("{}: step = {}, t = {:.9g}, balance_error = {:.3g}", name_of(status), progress_.step, state_.t,
-                   ledger().balance_error());
-        return code;
-    };
     March march;
     march.t_end = case_.options.run.t_end;
-    march.next_stop = [this](double t) { return next_stop(t); };
-    march.after_start = [this] {
-        if (!resumed_) {
-            const EnergyLedger at_start = ledger();
-            progress_.initial_energy = at_start.kinetic + at_start.stored.sum();
-            write_rows(0);
-            write_frame();
-        }
-        log_->info("start: t = {:.9g}, t_end = {:.9g}", state_.t, case_.options.run.t_end);
-    };
+    march.next_stop = [this](double t) { return schedule_->next_stop(t); };
+    march.after_start = [this] { begin(); };
     march.after_step = [this](const StepReport& step) { return after_step(step); };
     try {
-        if (march.run(*case_.system, *case_.integrator, state_, resumed_) == MarchOutcome::interrupted)
-            return end(RunStatus::interrupted, "stopped by a signal; go on with --restart", stop_request_.exit_code());
+        if (march.run(*case_.system, *case_.integrator, state_, resumed_) == MarchOutcome::finished)
+            return end(RunStatus::done, "", exit_code::done);
+        return end(RunStatus::interrupted,
+                   fmt::format("stopped by a signal; go on with --restart {}", (out_ / "checkpoint.h5").string()),
+                   stop_request_.exit_code());
     } catch (const RecoverableError& error) {
-        log_->error("{}", error.what());
-        write_frame();
-        return end(RunStatus::failed, error.what(), exit_code::failed);
+        return end_failed(error);
+    } catch (const std::exception& error) {
+        // A full disk, say: nothing more may be written, except for why, if that still goes.
+        try {
+            log_->info("failed: {}", error.what());
+            write_summary_file(RunStatus::failed, error.what());
+        } catch (const std::exception&) {
+        }
+        throw;
     }
-    return end(RunStatus::done, "", exit_code::done);
 }
 
 }  // namespace

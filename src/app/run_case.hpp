@@ -17,14 +17,16 @@ struct RunArguments {
     std::filesystem::path deck;
     std::filesystem::path out;  ///< empty: results/NAME, NAME being the deck's without its ending
     std::vector<std::string> set;
-    int threads = 0;            ///< 0: as many as there are cores
+    int threads = 0;  ///< 0: as many as there are cores
     std::optional<std::filesystem::path> restart;
     bool quiet = false;
 };
 
-/// Results stand in `out`, however the run ends: summary.json says how.
+/// Results stand in `out`, however the run ends: summary.json says how. Of an older run in the same folder nothing
+/// stays but what a restart goes on with.
 /// @return exit code: 0 done, 3 failed, 130 or 143 interrupted
-/// @throws InputError, IoError before the first step
+/// @throws InputError before the first step
+/// @throws IoError if results cannot be written
 int run_case(const RunArguments& arguments);
 
 }  // namespace gneiss

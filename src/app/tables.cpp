@@ -1,7 +1,7 @@
 #include "app/tables.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 #include "base/errors.hpp"
 
@@ -9,9 +9,9 @@ namespace gneiss {
 
 std::vector<CsvColumn> history_columns() {
     std::vector<CsvColumn> columns{{"t", "s"}, {"step"}, {"dt", "s"}};
-    for (const char* energy : {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "external_work",
-                               "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing",
-                               "dissipated_friction", "dissipated_fracture", "left_over"})
+    for (const char* energy : {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints",
+                               "external_work", "support_work", "dissipated_damping", "dissipated_viscous",
+                               "dissipated_absorbing", "dissipated_friction", "dissipated_fracture", "left_over"})
         columns.push_back({energy, "J"});
     columns.push_back({"balance_error"});
     return columns;
@@ -20,9 +20,23 @@ std::vector<CsvColumn> history_columns() {
 std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger) {
     const StoredEnergies& stored = ledger.stored;
     const PathEnergies& path = ledger.path;
-    return {t, static_cast<double>(step), dt, ledger.kinetic, stored.material, stored.stress_power, stored.contact,
-            stored.joints, path.external_work, path.support_work, path.damping, path.viscous, path.absorbing,
-            path.friction, path.fracture, ledger.left_over(), ledger.balance_error()};
+    return {t,
+            static_cast<double>(step),
+            dt,
+            ledger.kinetic,
+            stored.material,
+            stored.stress_power,
+            stored.contact,
+            stored.joints,
+            path.external_work,
+            path.support_work,
+            path.damping,
+            path.viscous,
+            path.absorbing,
+            path.friction,
+            path.fracture,
+            ledger.left_over(),
+            ledger.balance_error()};
 }
 
 ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) {
@@ -34,7 +48,8 @@ ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes
             if (given.about) {
                 const double dx = given.at[0] - (*given.about)[0], dy = given.at[1] - (*given.about)[1];
                 const double length = std::hypot(dx, dy);
-                if (!(length > 0)) throw InputError("", "stands at the centre it is to be seen from: no radial direction");
+                if (!(length > 0))
+                    throw InputError("", "stands at the centre it is to be seen from: no radial direction");
                 probe.direction = {dx / length, dy / length};
             }
             probes_.push_back(std::move(probe));
@@ -49,7 +64,9 @@ ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes
 std::vector<CsvColumn> ProbeTable::columns() const {
     std::vector<CsvColumn> columns{{"t", "s"}};
     for (const Probe& probe : probes_) {
-        const auto add = [&](const char* quantity, const char* unit) { columns.push_back({probe.name + "." + quantity, unit}); };
+        const auto add = [&](const char* quantity, const char* unit) {
+            columns.push_back({probe.name + "." + quantity, unit});
+        };
         for (const char* name : {"u_x", "u_y"}) add(name, "m");
         for (const char* name : {"v_x", "v_y"}) add(name, "m/s");
         for (const char* name : {"sigma_xx", "sigma_yy", "sigma_xy"}) add(name, "Pa");
@@ -72,7 +89,8 @@ std::vector<double> ProbeTable::row(const SolidSystem& system, const State& stat
     };
     for (const Probe& probe : probes_) {
         const auto u = at(state.u, probe.point), v = at(state.v, probe.point);
-        const auto sigma = system.point_fields(state, probe.point.element)[static_cast<std::size_t>(probe.point.sub_triangle)].cauchy;
+        const auto sigma =
+            system.point_fields(state, probe.point.element)[static_cast<std::size_t>(probe.point.sub_triangle)].cauchy;
         row.insert(row.end(), {u[0], u[1], v[0], v[1], sigma[0], sigma[1], sigma[2]});
         if (!probe.radial) continue;
         const double c = probe.direction[0], s = probe.direction[1];

@@ -19,12 +19,14 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
 /// Probes: points that keep their place in the material.
 class ProbeTable {
 public:
+    ProbeTable() = default;
     /// @throws InputError with every probe that lies outside the solid
     ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes);
 
     bool empty() const { return probes_.empty(); }
-    /// t, then for each probe u_x, u_y, v_x, v_y and the Cauchy stress of its sub-triangle; with a centre also u_r, u_t,
-    /// v_r, v_t and the stresses in the same directions: r from the centre to the reference position, t at +90 degrees.
+    /// Columns: t, then for each probe u_x, u_y, v_x, v_y and the Cauchy stress of its sub-triangle; with a centre also
+    /// u_r, u_t, v_r, v_t and the stresses in the same directions: r from the centre to the reference position, t at
+    /// +90 degrees.
     std::vector<CsvColumn> columns() const;
     std::vector<double> row(const SolidSystem& system, const State& state) const;
 

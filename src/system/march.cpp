@@ -1,6 +1,7 @@
 #include "system/march.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 namespace gneiss {
@@ -10,6 +11,14 @@ double next_event_time(const SemiDiscrete& system, const State& state) {
     double next = std::numeric_limits<double>::infinity();
     for (const auto& event : system.events()) next = std::min(next, event->next_time(state).value_or(next));
     return next;
+}
+
+/// The first of some times, or the last of those that are the same instant.
+double first_instant(std::initializer_list<double> times) {
+    double first = std::min(times);
+    for (const double time : times)
+        if (reached(first, time)) first = std::max(first, time);
+    return first;
 }
 
 /// Lets every event happen that is due at state.t; the strongest outcome counts.
@@ -32,11 +41,17 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
     if (after_start) after_start();
     while (state.t < t_end) {
         const double stop = next_stop ? next_stop(state.t) : t_end;
-        const StepReport step = integrator.advance(system, state, std::min({t_end, stop, next_event_time(system, state)}));
+        const StepReport step =
+            integrator.advance(system, state, first_instant({t_end, stop, next_event_time(system, state)}));
         switch (apply_due_events(system, state)) {
-            case EventOutcome::none: break;
-            case EventOutcome::reinitialise: integrator.start(system, state, StartReason::reinitialise); break;
-            case EventOutcome::resize: integrator.start(system, state, StartReason::resize); break;
+            case EventOutcome::none:
+                break;
+            case EventOutcome::reinitialise:
+                integrator.start(system, state, StartReason::reinitialise);
+                break;
+            case EventOutcome::resize:
+                integrator.start(system, state, StartReason::resize);
+                break;
         }
         if (after_step && !after_step(step)) return MarchOutcome::interrupted;
     }

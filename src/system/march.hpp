@@ -1,17 +1,26 @@
 #pragma once
 // The one loop over time: steps, events, stops. It works for any system and any integrator.
 
+#include <cmath>
 #include <functional>
 
 #include "system/integrator.hpp"
 
 namespace gneiss {
 
+/// Whether t has come to `time`, or fails to by round-off alone. Times that are one instant to the user, 3 * 0.1 and
+/// 0.3 say, must not have a step between them: it would be as short as round-off, and rates are divided by it.
+inline bool reached(double t, double time) {
+    constexpr double round_off = 1e-12;  // thousands of eps: sums and products of a deck's numbers
+    return time - t <= round_off * std::abs(t);
+}
+
 enum class MarchOutcome { finished, interrupted };
 
 struct March {
     double t_end = 0;  ///< s
-    /// The next time after t at which a step has to end exactly (output of fields, checkpoints), s; may be infinite.
+    /// The next time after t at which a step has to end (output of fields, checkpoints), s; may be infinite. Where it
+    /// differs from t_end or from an event by round-off alone, the step ends at the last of them.
     std::function<double(double t)> next_stop;
     /// Called once before the first step, when the integrator has started.
     std::function<void()> after_start;

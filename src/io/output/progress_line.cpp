@@ -66,6 +66,7 @@ double TimeLeft::until(double t_end) const {
 
 std::string duration_text(double seconds) {
     if (!(seconds >= 0 && seconds < 1e9)) return "--";
+    if (seconds > 0 && seconds < 0.95) return fmt::format("{:.1g} s", seconds);
     const auto s = static_cast<std::int64_t>(std::llround(seconds));
     constexpr std::int64_t minute = 60, hour = 60 * minute, day = 24 * hour;
     if (s < minute) return fmt::format("{} s", s);

@@ -41,7 +41,7 @@ private:
     double weight_ = 0;  // of the observations in speed_, 0 to 1: corrects the start from nothing
 };
 
-/// "4 s", "1 min 05 s", "2 h 03 min", "3 d 04 h"; "--" for nan.
+/// "0.4 s", "4 s", "1 min 05 s", "2 h 03 min", "3 d 04 h"; "--" for nan.
 std::string duration_text(double seconds);
 
 /// The bar of a terminal: `[####------]  40 %  t = 8.00e-03 / 2.00e-02 s  step 12000  dt = 2.0e-07 s  left 1 min 05 s

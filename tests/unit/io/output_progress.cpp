@@ -86,7 +86,9 @@ TEST(FinalLine, TellsHowItEnded) {
 }
 
 TEST(DurationText, HasTwoUnitsAtMost) {
-    EXPECT_EQ(duration_text(0.4), "0 s");
+    EXPECT_EQ(duration_text(0), "0 s");
+    EXPECT_EQ(duration_text(0.43), "0.4 s");
+    EXPECT_EQ(duration_text(0.96), "1 s");
     EXPECT_EQ(duration_text(59.4), "59 s");
     EXPECT_EQ(duration_text(59.6), "1 min 00 s");
     EXPECT_EQ(duration_text(7384), "2 h 03 min");

@@ -1,0 +1,25 @@
+#pragma once
+// What summary.json says of a run.
+
+#include <string>
+#include <vector>
+
+#include "app/build_case.hpp"
+#include "io/output/summary.hpp"
+#include "model/energy_ledger.hpp"
+
+namespace gneiss {
+
+/// Where a run stands.
+struct RunNumbers {
+    double t = 0, last_dt = 0;             ///< s
+    std::size_t step = 0, first_step = 0;  ///< of the whole run; the first of this part of it, after a restart
+    double setup_time = 0, wall_time = 0;  ///< s
+    EnergyLedger energies;
+};
+
+/// @param deck  path of the deck; @param set  overrides laid over it
+RunSummary summarise(const Case& built, const std::string& deck, const std::vector<std::string>& set,
+                     const RunNumbers& now);
+
+}  // namespace gneiss
