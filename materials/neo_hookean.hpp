@@ -29,6 +29,7 @@ struct NeoHookean {
 
     template <class T>
     struct Volume {
+        T change;        ///< s_v - 1; not from s_v, which has lost its digits
         T s_v, inverse;  ///< s_v, 1/s_v
         T log_area;      ///< ln s_v
         T log_thickness; ///< ln s_z
@@ -47,7 +48,7 @@ struct NeoHookean {
                                  (2 * mu * (grown + T(1.0)) + T(lambda));
             }
         }
-        return {s_v, T(1.0) / s_v, log_area, log_thickness};
+        return {s_v_minus_1, s_v, T(1.0) / s_v, log_area, log_thickness};
     }
 
     template <class T, class V>
@@ -60,13 +61,13 @@ struct NeoHookean {
         return {scale * (point.h_alpha + turned(point.h_beta) - half_distortion * cof_alpha),
                 scale * (point.h_beta - turned(point.h_alpha) - half_distortion * cof_beta),
                 mu * half_distortion +
-                    (mu * (volume.s_v - T(1.0)) + lambda * (volume.log_area + volume.log_thickness)) * volume.inverse};
+                    (mu * volume.change + lambda * (volume.log_area + volume.log_thickness)) * volume.inverse};
     }
 
     template <class T>
     T energy_density(const PointKinematics<T>& point, const Volume<T>& volume) const {
         const T y = volume.log_thickness, log_volume = volume.log_area + y;
-        return (0.5 * mu) * (2.0 * (volume.s_v - T(1.0) - volume.log_area) +
+        return (0.5 * mu) * (2.0 * (volume.change - volume.log_area) +
                              volume.s_v * distortion(point) / point.jacobian() + exponential_minus_1(T(2.0 * y)) - 2.0 * y) +
                (0.5 * lambda) * (log_volume * log_volume);
     }
