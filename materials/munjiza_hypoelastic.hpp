@@ -52,16 +52,19 @@ T Stiffening::mean_factor(const T& p0, const T& pi) const {
     const T end = start + pi;
     const T from = positive(start), to = positive(end);
     const T base = T(1.0) + kappa * positive(p0);  // 1 + kappa p at `from`
+    // A small step far above p = 0 is pi itself: the difference of its ends has lost its digits.
+    const T step_above = choose((plain(start) > 0.0) && (plain(end) > 0.0), pi, T(to - from));
     // p(to) - p(from) = base/kappa expm1(E), from y = kappa (to - from)/base^(1-n): no difference of large numbers
-    const T y = (to - from) * kappa * T(exponential((n - 1) * ln1p(T(base - T(1.0)))));
+    const T y = step_above * kappa * T(exponential((n - 1) * ln1p(T(base - T(1.0)))));
     const T grown = n == 1 ? y : T(ln1p(T((1 - n) * y)) * (1 / (1 - n)));
     const T above = base * T(exponential_minus_1(grown)) * (1 / kappa);
-    const T below = negative(end) - negative(start);
-    // For a vanishing step the quotient is 0/0: there g itself is the mean, to within the step.
-    const double vanishing = 1e-12;
-    const auto tiny = plain(T(pi * pi)) <= vanishing * vanishing * p_ref * p_ref;
+    const T below = pi - step_above;
+    // Towards a vanishing step the quotient becomes 0/0, and its derivative loses digits as eps/(kappa pi). The midpoint
+    // rule is then exact to round-off, (kappa pi)^2; across p = 0 to n kappa pi/4.
+    const double vanishing = 1e-8;
+    const auto tiny = plain(T(pi * pi)) * (kappa * kappa) <= vanishing * vanishing;
     const T quotient = (above + below) / choose(tiny, T(1.0), pi);
-    return choose(tiny, factor(p0), quotient);
+    return choose(tiny, factor(T(p0 + 0.5 * factor(p0) * pi)), quotient);
 }
 
 /// Internal variables: Munjiza stresses (Pa) and the accumulated stress power (J/m3). History: the total logarithmic
