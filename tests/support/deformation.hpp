@@ -1,7 +1,7 @@
 #pragma once
 // A material point by itself: it is its own composite, s_v = det F.
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -13,6 +13,7 @@ namespace gneiss {
 /// A tensor of the plane, row by row: xx, xy, yx, yy. H = F - I unless said otherwise.
 template <class T>
 using Tensor = std::array<T, 4>;
+inline constexpr Tensor<double> at_rest{};
 
 inline Eigen::Matrix2d matrix(const Tensor<double>& t) { return Eigen::Matrix2d{{t[0], t[1]}, {t[2], t[3]}}; }
 inline Tensor<double> tensor(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
@@ -98,7 +99,7 @@ Memory updated(const Law& law, const Tensor<double>& h, double axis_angle, const
 /// The memory of a point that has been led to H = 0: what a law without initial stress starts with.
 template <class Law>
 typename Law::template Memory<double> memory_at_rest(const Law& law, double axis_angle) {
-    return updated(law, {}, axis_angle, typename Law::template Memory<double>{});
+    return updated(law, at_rest, axis_angle, typename Law::template Memory<double>{});
 }
 
 /// dP/dF, Pa, by dual numbers, shape (4, 4), rows and columns in the order of Tensor.
