@@ -1,0 +1,152 @@
+// What only the composite triangle has: one volume for four sub-triangles  [FORMULATION 2].
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "element_cases.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double axis = 0.4;
+using Compt = CompositeTriangle;
+constexpr int n_dof = 2 * Compt::n_nodes;
+
+/// b of s_v - 1 = b . u at rest, 1/m, node by node.
+template <Sampling sampling>
+Eigen::VectorXd volume_gradient(const Nodal<Compt, double>& x) {
+    using D = Dual<n_dof>;
+    Nodal<Compt, D> u;
+    for (int n = 0; n < Compt::n_nodes; ++n)
+        u[static_cast<std::size_t>(n)] = {D::variable(0.0, 2 * n), D::variable(0.0, 2 * n + 1)};
+    const auto kinematics = triangle_kinematics<Compt, sampling>(u, geometry_of<Compt>(x, axis));
+    return Eigen::Map<const Eigen::VectorXd>(kinematics.volume_strain.derivative.data(), n_dof);
+}
+
+TEST(CompositeTriangle, WithoutVolumetricModulus_IsItsFourConstantStrainTriangles) {
+    // The same operations in the same order, up to the sums at shared nodes and the compiler's choice of fused
+    // multiplications: strains differ by eps |H|, |H| up to 2, and so stresses by some eps M.
+    constexpr double tolerance = 4 * eps * modulus;
+    MunjizaConstants constants = anisotropic;
+    constants.M_v = 0;
+    const auto x = CompositeCase::distorted();
+    const auto geometry = geometry_of<Compt>(x, axis);
+    std::mt19937 random(21);
+    const auto check = [&](const auto& law) {
+        using Law = std::decay_t<decltype(law)>;
+        for (const Tensor<double>& h : finite_deformations()) {
+            const auto u = noisy<Compt>(x, h, random);
+            const auto whole =
+                forces<Compt, Sampling::mean>(law, u, geometry, element_at_rest<Compt, Sampling::mean>(law, geometry));
+            Nodal<Compt, double> parts{};
+            for (const SubTriangle& abc : Compt::sub_triangles) {
+                const SubTriangle nodes = counter_clockwise(abc);
+                Nodal<Cst, double> x_part, u_part;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    x_part[k] = x[static_cast<std::size_t>(nodes[k])];
+                    u_part[k] = u[static_cast<std::size_t>(nodes[k])];
+                }
+                const auto part_geometry = geometry_of<Cst>(x_part, axis);
+                const ElementMemory<Cst, Law, double> memory = element_at_rest<Cst, Sampling::mean>(law, part_geometry);
+                const auto f = forces<Cst, Sampling::mean>(law, u_part, part_geometry, memory);
+                for (std::size_t k = 0; k < 3; ++k) parts[static_cast<std::size_t>(nodes[k])] += f[k];
+            }
+            for (std::size_t n = 0; n < whole.size(); ++n) {
+                EXPECT_NEAR(whole[n].x, parts[n].x, tolerance);
+                EXPECT_NEAR(whole[n].y, parts[n].y, tolerance);
+            }
+        }
+    };
+    check(MunjizaHyperelastic<false>{constants});
+    check(MunjizaHyperelastic<true>{constants});
+    check(MunjizaHypoelastic<false>{constants, stiffening_rock});
+    check(MunjizaHypoelastic<true>{constants, {}});
+}
+
+TEST(CompositeTriangle, WithVolumetricModulus_IsNotItsFourConstantStrainTriangles) {
+    // the volumes of the four parts differ, the composite has one: the test above could fail
+    const auto x = CompositeCase::distorted();
+    const auto geometry = geometry_of<Compt>(x, axis);
+    std::mt19937 random(22);
+    const auto u = noisy<Compt>(x, finite_deformations()[0], random);
+    const auto kinematics = triangle_kinematics<Compt, Sampling::mean>(u, geometry);
+    for (const auto& point : kinematics.point)
+        EXPECT_GT(std::abs(point.area_strain - kinematics.volume_strain), 1e-3) << "of the order of the noise, 0.03";
+}
+
+TEST(CompositeTriangle, StraightSides_CentreSamplesTwiceTheMidSidesAndNoCorner) {
+    const auto x = CompositeCase::straight();
+    const Eigen::VectorXd mean = volume_gradient<Sampling::mean>(x), centre = volume_gradient<Sampling::centre>(x);
+    const double round_off = 32 * eps * mean.cwiseAbs().maxCoeff();
+    for (int dof = 0; dof < n_dof; ++dof) {
+        const bool mid_side = dof / 2 % 2 == 1;
+        EXPECT_NEAR(centre(dof), mid_side ? 2 * mean(dof) : 0, round_off) << "node " << dof / 2;
+        EXPECT_NE(mean(dof), 0) << "nothing to compare";
+    }
+}
+
+TEST(CompositeTriangle, AnySides_CentreLeavesCornersOut) {
+    const Eigen::VectorXd centre = volume_gradient<Sampling::centre>(CompositeCase::distorted());
+    for (const int corner : {0, 2, 4}) {
+        EXPECT_EQ(centre(2 * corner), 0);
+        EXPECT_EQ(centre(2 * corner + 1), 0);
+    }
+}
+
+TEST(CompositeTriangle, TangentAtRest_OfCentre_HasTheUnsymmetricPartOfTheTheory) {
+    // K_centre - K_mean = A h M_v b_mean^T (b_centre - b_mean)
+    const MunjizaHyperelastic<true> law{anisotropic};
+    const auto x = CompositeCase::distorted();
+    const auto geometry = geometry_of<Compt>(x, axis);
+    const Nodal<Compt, double> rest{};
+    const auto memory = element_at_rest<Compt, Sampling::mean>(law, geometry);
+    const Eigen::MatrixXd mean = stiffness<Compt, Sampling::mean>(law, rest, geometry, memory);
+    const Eigen::MatrixXd centre = stiffness<Compt, Sampling::centre>(law, rest, geometry, memory);
+    const Eigen::VectorXd b_mean = volume_gradient<Sampling::mean>(x), b_centre = volume_gradient<Sampling::centre>(x);
+    const Eigen::MatrixXd theory = anisotropic.M_v / geometry.inverse_volume * b_mean * (b_centre - b_mean).transpose();
+    const double round_off = 200 * eps * mean.cwiseAbs().maxCoeff();
+    EXPECT_LE((centre - mean - theory).cwiseAbs().maxCoeff(), round_off);
+    EXPECT_LE((mean - mean.transpose()).cwiseAbs().maxCoeff(), round_off);
+    EXPECT_GT((centre - centre.transpose()).cwiseAbs().maxCoeff(), 0.05 * anisotropic.M_v);
+}
+
+TEST(CompositeTriangle, Centre_TakesTheVolumeOfTheCentralSubTriangle) {
+    const auto x = CompositeCase::distorted();
+    const auto geometry = geometry_of<Compt>(x, axis);
+    std::mt19937 random(23);
+    const auto u = noisy<Compt>(x, finite_deformations()[1], random);
+    const auto v = noisy<Compt>(x, {0.5, -0.9, 0.7, 0.3}, random, 0.3);
+    const auto kinematics = triangle_kinematics<Compt, Sampling::centre>(u, geometry);
+    EXPECT_EQ(kinematics.volume_strain, kinematics.point[3].area_strain);
+    const auto rates = triangle_rates<Compt, Sampling::centre>(v, kinematics, geometry);
+    const auto& central = kinematics.point[3];
+    const double rate =
+        (cross(rates[3].alpha, central.beta()) + cross(central.alpha(), rates[3].beta)) / central.jacobian();
+    for (const auto& of_sub : rates) EXPECT_NEAR(of_sub.volume, rate, 32 * eps * std::abs(rate));
+}
+
+TEST(CompositeTriangle, Centre_UnderRigidMotionAndConstantStrain_IsTheMean) {
+    const MunjizaHyperelastic<true> law{anisotropic};
+    const auto x = CompositeCase::distorted();
+    const auto geometry = geometry_of<Compt>(x, axis);
+    const auto memory = element_at_rest<Compt, Sampling::centre>(law, geometry);
+    const double round_off = 200 * eps * modulus;
+    EXPECT_LE(
+        largest<Compt>(forces<Compt, Sampling::centre>(law, affine<Compt>(x, rigid_rotation(2.5)), geometry, memory)),
+        round_off);
+    for (const Tensor<double>& h : finite_deformations()) {
+        const auto u = affine<Compt>(x, h);
+        const auto centre = forces<Compt, Sampling::centre>(law, u, geometry, memory);
+        const auto mean = forces<Compt, Sampling::mean>(law, u, geometry, memory);
+        for (std::size_t n = 0; n < mean.size(); ++n) {
+            EXPECT_NEAR(centre[n].x, mean[n].x, round_off);
+            EXPECT_NEAR(centre[n].y, mean[n].y, round_off);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
