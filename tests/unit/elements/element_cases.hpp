@@ -22,8 +22,6 @@ struct CstCase {
     static std::array<Vec2<double>, 1> sub_centres() { return {{{1.0 / 3, 1.0 / 3}}}; }
     /// Distorted, m.
     static Nodal<Element, double> distorted() { return {{{0.3, -0.2}, {1.4, 0.3}, {-0.1, 0.8}}}; }
-    /// The same with straight sides.
-    static Nodal<Element, double> straight() { return distorted(); }
 };
 
 struct CompositeCase {
@@ -36,15 +34,22 @@ struct CompositeCase {
     static Nodal<Element, double> distorted() {
         return {{{0.3, -0.2}, {0.8, -0.05}, {1.4, 0.3}, {0.7, 0.5}, {-0.1, 0.8}, {0.15, 0.25}}};
     }
-    static Nodal<Element, double> straight() {
-        Nodal<Element, double> x = distorted();
+};
+
+struct StraightCompositeCase {
+    using Element = StraightCompositeTriangle;
+    static Nodal<Element, double> drawn() { return CompositeCase::drawn(); }
+    static std::array<Vec2<double>, 4> sub_centres() { return CompositeCase::sub_centres(); }
+    /// The corners of CompositeCase::distorted(), mid-sides in the middle.
+    static Nodal<Element, double> distorted() {
+        Nodal<Element, double> x = CompositeCase::distorted();
         for (std::size_t side = 1; side < 6; side += 2) x[side] = 0.5 * (x[side - 1] + x[(side + 1) % 6]);
         return x;
     }
 };
 
 /// To add an element: one struct like those above, one name here.
-using Elements = testing::Types<CstCase, CompositeCase>;
+using Elements = testing::Types<CstCase, CompositeCase, StraightCompositeCase>;
 
 inline constexpr double thickness_under_test = 0.7;  ///< m
 
