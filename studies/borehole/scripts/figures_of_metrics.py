@@ -35,7 +35,7 @@ def wavefront(path: str) -> None:
 
 
 def convergence(path: str) -> None:
-    figure, (left, right) = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.0))
+    figure, (left, right) = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.0), sharey=True)
     levels = np.array(details["sub_edges_mm"]["levels"], dtype=float)
     for (nu, entry), marker in zip(details["cavity"].items(), "os"):
         for key, label, colour in (("displacement", "displacement", style.BLUE),
@@ -55,7 +55,7 @@ def convergence(path: str) -> None:
         panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), fontsize=7)
     left.set_ylabel("relative L2 difference")
     style.panel_label(left, "a) isotropic: against the closed form")
-    style.panel_label(right, "b) anisotropic: against the level before")
+    style.panel_label(right, "b) anisotropic: change from the coarser level")
     style.save(figure, path)
 
 

@@ -1,6 +1,6 @@
-"""Samples the fields of a finished run and, unless told to keep them, removes them: 150 MB each on the finest mesh.
+"""Samples the fields of a finished run.
 
-usage: snapshot.py FOLDER OUT.npz [--keep-fields]
+usage: snapshot.py FOLDER OUT.npz
 
 OUT.npz holds the velocity at SNAPSHOT_TIME on a regular grid, shape (y, x, 2), as it is (`velocity`) and as seen by one
 who has turned with the axes (`turned_back`), m/s, the grid's coordinates (`axis`), m, a digest of every number in that
@@ -46,7 +46,7 @@ def share_of_nodes_repeated(points: np.ndarray) -> float:
     return float(np.mean(np.isfinite(distance)))
 
 
-def main(folder: Path, out: Path, keep_fields: bool) -> None:
+def main(folder: Path, out: Path) -> None:
     frame = read_frame(frame_path(folder, SNAPSHOT_TIME, TIME_TOLERANCE))
     axis = np.linspace(-HALF_WIDTH, HALF_WIDTH, round(2 * HALF_WIDTH / PITCH) + 1)
     velocity = frame.point_data["velocity"][:, :2]
@@ -55,10 +55,7 @@ def main(folder: Path, out: Path, keep_fields: bool) -> None:
                for back in map(rotation, [0.0, -turn] if turn else [0.0])]
     np.savez_compressed(out, axis=axis, velocity=sampled[0], turned_back=sampled[-1], digest=digest(frame),
                         repeated_nodes=share_of_nodes_repeated(frame.points))
-    if not keep_fields:
-        for file in [*folder.glob("fields*"), folder / "checkpoint.h5"]:
-            file.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), "--keep-fields" in sys.argv[3:])
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
