@@ -41,6 +41,7 @@ State SolidSystem::initial_state() const {
     state.z.resize(elements_.n_internal());
     state.history.resize(elements_.n_history());
     elements_.initial_memory(state.z, state.history);
+    if (elements_.viscous()) state.path.viscous_power = elements_.energies(state, Trial::of(state)).viscous_power;
     return state;
 }
 
