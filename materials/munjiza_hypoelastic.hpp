@@ -143,11 +143,18 @@ struct MunjizaHypoelastic {
         const T area_rate = cross(rates.alpha, beta) + cross(alpha, rates.beta);
         const T c_rate = (dot(rates.alpha, beta) + dot(alpha, rates.beta) - c * area_rate) / area;
         const T psi_rate = -c_rate / (T(1.0) + c * c) * (angular_strain(c).ratio * (1 / (2 * half_psi_bar)));
+        const MunjizaComponents<T> e_rate{rates.volume, dot(alpha, rates.alpha) * stretches.inverse_alpha_squared,
+                                          dot(beta, rates.beta) * stretches.inverse_beta_squared, psi_rate};
+        // as update() measures it: in a composite the two are equal in sum, not at every point
+        T power(0.0);
+        if constexpr (direct)
+            power = WorkMeter::power(point, rates, stress, q);
+        else
+            power = given.z[0] * e_rate.v + given.z[1] * e_rate.alpha + given.z[2] * e_rate.beta +
+                    shear_energy_weight * given.z[3] * e_rate.psi;
         const T g = stiffening.active() ? stiffening.factor(pressure(given)) : T(1.0);
-        return {g * (constants.M_v * rates.volume),
-                g * (constants.M_alpha * dot(alpha, rates.alpha) * stretches.inverse_alpha_squared),
-                g * (constants.M_beta * dot(beta, rates.beta) * stretches.inverse_beta_squared),
-                g * (constants.M_psi * psi_rate), WorkMeter::power(point, rates, stress, q)};
+        return {g * (constants.M_v * e_rate.v), g * (constants.M_alpha * e_rate.alpha),
+                g * (constants.M_beta * e_rate.beta), g * (constants.M_psi * e_rate.psi), power};
     }
 
     /// Memory at rest under a Cauchy stress given in the axes, Pa: small strain on the axes, then m = M e.
