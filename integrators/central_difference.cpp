@@ -176,6 +176,7 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
     const double *u = state.u.data(), *v = state.v.data(), *a = a_.data();
     double *u_next = next_.u.data(), *v_next = next_.v.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+#pragma omp simd
         for (std::size_t i = first; i < last; ++i) {
             const double v_half = v[i] + half * a[i];
             v_next[i] = v_half;
@@ -187,6 +188,7 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
         // forces that depend on velocity see v(n+1/2) + dt/2 a(n), of order 2 at t(n+1)
         double* v_half = v_half_.data();
         parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+#pragma omp simd
             for (std::size_t i = first; i < last; ++i) {
                 v_half[i] = v_next[i];
                 v_next[i] += half * a[i];
@@ -231,6 +233,7 @@ void CentralDifference::kick(const SemiDiscrete& system, const State& state, dou
     const double* inverse_mass = inverse_mass_.data();
     double *v = next_.v.data(), *a = a_.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
+#pragma omp simd
         for (std::size_t i = first; i < last; ++i) {
             const double force_per_mass = inverse_mass[i] * a[i];
             v[i] = (v_half[i] + half * force_per_mass) * inverse_damping;

@@ -18,12 +18,33 @@ inline constexpr std::size_t pack_alignment = Pack::arch_type::alignment() < 16 
 /// n rounded up to whole packs.
 constexpr std::size_t padded(std::size_t n) { return (n + pack_width - 1) / pack_width * pack_width; }
 
-/// Gathers the pairs values[2 i], values[2 i + 1] for the W indices i into an x and a y pack.
+/// Where a pair stands: by its number, or by its distance in bytes from the first pair. Bytes save a shift for every pair.
+struct PairNumber {
+    std::int32_t value;
+};
+struct PairBytes {
+    std::uint16_t value;
+};
+inline constexpr std::size_t bytes_per_pair = 2 * sizeof(double);
+
+template <class Value>
+Value* pair_at(Value* values, PairNumber i) {
+    return values + 2 * static_cast<std::ptrdiff_t>(i.value);
+}
+inline const double* pair_at(const double* values, PairBytes offset) {
+    return reinterpret_cast<const double*>(reinterpret_cast<const char*>(values) + offset.value);
+}
+inline double* pair_at(double* values, PairBytes offset) {
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(values) + offset.value);
+}
+
+/// Gathers W pairs into an x and a y pack.
+/// @param index  PairNumber or PairBytes, shape (pack_width)
 template <class Index>
 inline void gather_pairs(const double* values, const Index* index, Pack& x, Pack& y) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     // Even lanes in one register, odd lanes in the other: unpacking then restores the order.
-    const auto pair = [&](int lane) { return _mm_loadu_pd(values + 2 * static_cast<std::ptrdiff_t>(index[lane])); };
+    const auto pair = [&](int lane) { return _mm_loadu_pd(pair_at(values, index[lane])); };
     __m512d even = _mm512_castpd128_pd512(pair(0));
     __m512d odd = _mm512_castpd128_pd512(pair(1));
     even = _mm512_insertf64x2(even, pair(2), 1);
@@ -35,7 +56,7 @@ inline void gather_pairs(const double* values, const Index* index, Pack& x, Pack
     x = Pack(_mm512_unpacklo_pd(even, odd));
     y = Pack(_mm512_unpackhi_pd(even, odd));
 #elif defined(__AVX2__)
-    const auto pair = [&](int lane) { return _mm_loadu_pd(values + 2 * static_cast<std::ptrdiff_t>(index[lane])); };
+    const auto pair = [&](int lane) { return _mm_loadu_pd(pair_at(values, index[lane])); };
     const __m256d even = _mm256_insertf128_pd(_mm256_castpd128_pd256(pair(0)), pair(2), 1);
     const __m256d odd = _mm256_insertf128_pd(_mm256_castpd128_pd256(pair(1)), pair(3), 1);
     x = Pack(_mm256_unpacklo_pd(even, odd));
@@ -43,20 +64,20 @@ inline void gather_pairs(const double* values, const Index* index, Pack& x, Pack
 #else
     alignas(pack_alignment) std::array<double, pack_width> xs, ys;
     for (std::size_t lane = 0; lane < pack_width; ++lane) {
-        xs[lane] = values[2 * static_cast<std::ptrdiff_t>(index[lane])];
-        ys[lane] = values[2 * static_cast<std::ptrdiff_t>(index[lane]) + 1];
+        xs[lane] = pair_at(values, index[lane])[0];
+        ys[lane] = pair_at(values, index[lane])[1];
     }
     x = Pack::load_aligned(xs.data());
     y = Pack::load_aligned(ys.data());
 #endif
 }
 
-/// Adds the W pairs (x, y) to values[2 i], values[2 i + 1], lane after lane: an index may occur more than once.
+/// Adds W pairs (x, y) to those that stand in `values`, lane after lane: an index may occur more than once.
 template <class Index>
 inline void scatter_add_pairs(double* values, const Index* index, const Pack& x, const Pack& y) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     const auto add = [&](int lane, __m128d pair) {
-        double* target = values + 2 * static_cast<std::ptrdiff_t>(index[lane]);
+        double* target = pair_at(values, index[lane]);
         _mm_storeu_pd(target, _mm_add_pd(_mm_loadu_pd(target), pair));
     };
     const __m512d even = _mm512_unpacklo_pd(x, y);
@@ -71,7 +92,7 @@ inline void scatter_add_pairs(double* values, const Index* index, const Pack& x,
     add(7, _mm512_extractf64x2_pd(odd, 3));
 #elif defined(__AVX2__)
     const auto add = [&](int lane, __m128d pair) {
-        double* target = values + 2 * static_cast<std::ptrdiff_t>(index[lane]);
+        double* target = pair_at(values, index[lane]);
         _mm_storeu_pd(target, _mm_add_pd(_mm_loadu_pd(target), pair));
     };
     const __m256d even = _mm256_unpacklo_pd(x, y);
@@ -85,8 +106,8 @@ inline void scatter_add_pairs(double* values, const Index* index, const Pack& x,
     x.store_aligned(xs.data());
     y.store_aligned(ys.data());
     for (std::size_t lane = 0; lane < pack_width; ++lane) {
-        values[2 * static_cast<std::ptrdiff_t>(index[lane])] += xs[lane];
-        values[2 * static_cast<std::ptrdiff_t>(index[lane]) + 1] += ys[lane];
+        pair_at(values, index[lane])[0] += xs[lane];
+        pair_at(values, index[lane])[1] += ys[lane];
     }
 #endif
 }

@@ -70,7 +70,7 @@ public:
     /// Nodes of the elements, shape (packs, n_nodes, pack_width); lanes behind the last element repeat it, without volume.
     virtual std::span<const std::int32_t> nodes() const = 0;
     /// The same as positions among the nodes of a chunk, set by the assembly: 16 bits that stay in the nearest cache.
-    virtual std::span<std::uint16_t> local_nodes() = 0;
+    virtual std::span<PairBytes> local_nodes() = 0;
 
     virtual void initial_memory(double* z, double* history) const = 0;
     virtual void add_mass(std::span<double> mass) const = 0;

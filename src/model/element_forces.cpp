@@ -33,14 +33,17 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
     plan();
 }
 
+auto ElementForces::nodes_of(const Chunk& chunk) -> std::pair<std::span<const std::int32_t>, std::span<PairBytes>> {
+    ElementBlock& block = *blocks_[chunk.block];
+    const std::size_t stride = static_cast<std::size_t>(block.n_nodes()) * pack_width;
+    const std::size_t first = chunk.first * stride, count = (chunk.last - chunk.first) * stride;
+    return {block.nodes().subspan(first, count), block.local_nodes().subspan(first, count)};
+}
+
 void ElementForces::plan() {
-    constexpr std::int32_t unseen = -1;
-    std::vector<std::int32_t> local(n_nodes_, unseen), touched(n_nodes_, 0);
+    std::vector<std::int32_t> local(n_nodes_), touched(n_nodes_, 0);
     for (Chunk& chunk : chunks_) {
-        const std::size_t stride = static_cast<std::size_t>(blocks_[chunk.block]->n_nodes()) * pack_width;
-        const std::size_t first = chunk.first * stride, count = (chunk.last - chunk.first) * stride;
-        const auto nodes = blocks_[chunk.block]->nodes().subspan(first, count);
-        const auto local_nodes = blocks_[chunk.block]->local_nodes().subspan(first, count);
+        const auto nodes = nodes_of(chunk).first;
         chunk.first_node = chunk_nodes_.size();
         chunk_nodes_.insert(chunk_nodes_.end(), nodes.begin(), nodes.end());
         const auto own = chunk_nodes_.begin() + static_cast<std::ptrdiff_t>(chunk.first_node);
@@ -48,13 +51,20 @@ void ElementForces::plan() {
         chunk_nodes_.erase(std::unique(own, chunk_nodes_.end()), chunk_nodes_.end());
         chunk.last_node = chunk_nodes_.size();
         largest_chunk_ = std::max(largest_chunk_, chunk.last_node - chunk.first_node);
-        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i) {
-            const auto node = static_cast<std::size_t>(chunk_nodes_[i]);
-            local[node] = static_cast<std::int32_t>(i - chunk.first_node);
-            ++touched[node];
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            local_nodes[i] = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
+        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i) ++touched[static_cast<std::size_t>(chunk_nodes_[i])];
+    }
+    for (Chunk& chunk : chunks_) {
+        const auto begin = chunk_nodes_.begin();
+        const auto first = begin + static_cast<std::ptrdiff_t>(chunk.first_node);
+        const auto last = begin + static_cast<std::ptrdiff_t>(chunk.last_node);
+        const auto first_shared = std::stable_partition(
+            first, last, [&](std::int32_t node) { return touched[static_cast<std::size_t>(node)] == 1; });
+        chunk.first_shared = static_cast<std::size_t>(first_shared - begin);
+        for (auto node = first; node != last; ++node)
+            local[static_cast<std::size_t>(*node)] = static_cast<std::int32_t>((node - first) * bytes_per_pair);
+        const auto [nodes, local_nodes] = nodes_of(chunk);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            local_nodes[i].value = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
     }
 
     // slots of shared nodes: by node, and for one node by chunk, which is the order of chunk_nodes_
@@ -67,9 +77,10 @@ void ElementForces::plan() {
         n_slots_ += static_cast<std::size_t>(touched[node]);
     }
     slot_starts_.push_back(n_slots_);
-    for (const std::int32_t node : chunk_nodes_) {
-        const auto n = static_cast<std::size_t>(node);
-        destination_.push_back(touched[n] < 2 ? node : -1 - static_cast<std::int32_t>(next[n]++));
+    for (Chunk& chunk : chunks_) {
+        chunk.first_slot = chunk_slots_.size();
+        for (std::size_t i = chunk.first_shared; i < chunk.last_node; ++i)
+            chunk_slots_.push_back(static_cast<std::int32_t>(next[static_cast<std::size_t>(chunk_nodes_[i])]++));
     }
     slot_forces_.assign(2 * n_slots_, 0.0);
 }
@@ -145,12 +156,15 @@ std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock
     if (block.viscous()) gather(at.v, v);
     std::fill(local_f, local_f + 2 * n, 0.0);
     const std::ptrdiff_t inverted = block.add_force(chunk.first, chunk.last, at, {u, v, local_f});
-    const std::int32_t* destination = destination_.data() + chunk.first_node;
-    for (std::size_t i = 0; i < n; ++i) {
-        double* to = destination[i] >= 0 ? f.data() + 2 * destination[i] : slot_forces_.data() + 2 * (-1 - destination[i]);
-        to[0] = local_f[2 * i];
-        to[1] = local_f[2 * i + 1];
-    }
+    const std::size_t n_own = chunk.first_shared - chunk.first_node;
+    const auto scatter = [](const double* from, const std::int32_t* where, std::size_t count, double* to) {
+        for (std::size_t i = 0; i < count; ++i) {
+            to[2 * where[i]] = from[2 * i];
+            to[2 * where[i] + 1] = from[2 * i + 1];
+        }
+    };
+    scatter(local_f, nodes, n_own, f.data());
+    scatter(local_f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
     return inverted;
 }
 

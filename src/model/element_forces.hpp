@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/element_block.hpp"
@@ -43,10 +44,13 @@ public:
 private:
     struct Chunk {
         std::size_t block, first, last;        ///< packs [first, last) of a block
-        std::size_t first_node = 0, last_node = 0;  ///< its nodes, in chunk_nodes_
+        // its nodes in chunk_nodes_: first those that no other chunk touches, then the shared ones, with slots
+        std::size_t first_node = 0, first_shared = 0, last_node = 0;
+        std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_
     };
 
     void plan();
+    std::pair<std::span<const std::int32_t>, std::span<PairBytes>> nodes_of(const Chunk& chunk);
     std::ptrdiff_t chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f) const;
     void prepare_scratch() const;
     void add_shared(std::span<double> f) const;
@@ -59,12 +63,11 @@ private:
     std::size_t n_nodes_;
     std::vector<std::int64_t> labels_;  ///< of the mesh's elements, for messages
 
-    /// Nodes of each chunk in the order of its local numbers, and where its part of the force goes: the node itself, or
-    /// -1 - slot.
-    std::vector<std::int32_t> chunk_nodes_, destination_;
+    std::vector<std::int32_t> chunk_nodes_;  ///< of each chunk in the order of its local numbers
+    std::vector<std::int32_t> chunk_slots_;  ///< where its part of the force of its shared nodes goes
     std::size_t largest_chunk_ = 0;  ///< nodes
 
-    // nodes that more than one chunk touches, ascending, and their slots by ascending chunk
+    // nodes that more than one chunk touches, ascending, and where their slots begin; by ascending chunk
     std::vector<std::int32_t> shared_nodes_;
     std::vector<std::size_t> slot_starts_;
     std::size_t n_slots_ = 0;

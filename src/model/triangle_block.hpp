@@ -25,16 +25,16 @@ public:
     bool viscous() const override { return info_.viscosity.active(); }
     std::size_t bytes_per_element() const override {
         return (geometry_fields + Element::n_sub * (Law::n_internal + Law::n_history)) * sizeof(double) +
-               Element::n_nodes * sizeof(std::uint16_t);
+               Element::n_nodes * sizeof(PairBytes);
     }
     std::span<const std::int32_t> nodes() const override { return nodes_; }
-    std::span<std::uint16_t> local_nodes() override { return local_nodes_; }
+    std::span<PairBytes> local_nodes() override { return local_nodes_; }
 
     void initial_memory(double* z, double* history) const override;
     void add_mass(std::span<double> mass) const override;
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at, const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
-    Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
+    [[gnu::flatten]] Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
     void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const override;
     std::string describe_inversion(std::size_t local, const Evaluation& at) const override;
@@ -61,7 +61,7 @@ private:
     TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
     template <class Index>
     static Nodal<Pack> gather(const double* pairs, const Index* index);
-    Nodal<Pack> gather(const double* pairs, std::size_t pack) const { return gather(pairs, nodes_.data() + pack * index_stride); }
+    Nodal<Pack> gather(const double* pairs, std::size_t pack) const { return gather(pairs, reinterpret_cast<const PairNumber*>(nodes_.data() + pack * index_stride)); }
     Nodal<double> gather_one(const double* pairs, std::size_t local) const;
     /// What a sub-triangle remembers at the start: the stress in situ, on the axes.
     typename Law::template Memory<double> memory_at_rest(std::size_t local) const;
@@ -80,7 +80,7 @@ private:
     Law law_;
     PackVector geometry_;                ///< (packs, fields, width): axis, sub-triangles, inverse volume
     std::vector<std::int32_t> nodes_;    ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
-    std::vector<std::uint16_t> local_nodes_;
+    std::vector<PairBytes> local_nodes_;
 };
 
 // ---- construction --------------------------------------------------------------------------------------------------
@@ -296,7 +296,7 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
                                                                       const Evaluation& at, const LocalNodes& nodal) const {
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
-        const std::uint16_t* index = local_nodes_.data() + pack * index_stride;
+        const PairBytes* index = local_nodes_.data() + pack * index_stride;
         const auto kinematics = triangle_kinematics<Element, sampling>(gather(nodal.u, index), g);
         const Pack smallest = smallest_jacobian(kinematics);
         if (!every_lane(smallest > Pack(0.0))) [[unlikely]]

@@ -13,11 +13,28 @@ namespace {
 
 constexpr std::int32_t n_nodes = 37;
 
-std::array<std::int32_t, pack_width> random_indices(std::mt19937& random, std::int32_t n) {
+/// The two ways to say where a pair stands.
+template <class Index>
+class Pairs : public testing::Test {
+public:
+    static Index at(std::int32_t node) {
+        if constexpr (std::is_same_v<Index, PairNumber>) return {node};
+        else return {static_cast<std::uint16_t>(node * static_cast<std::int32_t>(bytes_per_pair))};
+    }
+    static std::array<Index, pack_width> indices(const std::array<std::int32_t, pack_width>& nodes) {
+        std::array<Index, pack_width> index;
+        for (std::size_t lane = 0; lane < pack_width; ++lane) index[lane] = at(nodes[lane]);
+        return index;
+    }
+};
+using IndexTypes = testing::Types<PairNumber, PairBytes>;
+TYPED_TEST_SUITE(Pairs, IndexTypes);
+
+std::array<std::int32_t, pack_width> random_nodes(std::mt19937& random, std::int32_t n) {
     std::uniform_int_distribution<std::int32_t> any(0, n - 1);
-    std::array<std::int32_t, pack_width> index;
-    for (std::int32_t& i : index) i = any(random);
-    return index;
+    std::array<std::int32_t, pack_width> nodes;
+    for (std::int32_t& i : nodes) i = any(random);
+    return nodes;
 }
 
 TEST(Padded, AnyCount_IsTheNextMultipleOfTheWidth) {
@@ -27,36 +44,36 @@ TEST(Padded, AnyCount_IsTheNextMultipleOfTheWidth) {
     EXPECT_EQ(padded(pack_width + 1), 2 * pack_width);
 }
 
-TEST(GatherPairs, AnyIndices_BringXAndYOfEachNodeIntoItsLane) {
+TYPED_TEST(Pairs, GatherOfAnyIndices_BringXAndYOfEachNodeIntoItsLane) {
     std::vector<double> values(2 * n_nodes);
     std::iota(values.begin(), values.end(), 0.5);
     std::mt19937 random(1);
     for (int trial = 0; trial < 50; ++trial) {
-        const auto index = random_indices(random, trial < 25 ? n_nodes : 2);  // the second half repeats indices
+        const auto nodes = random_nodes(random, trial < 25 ? n_nodes : 2);  // the second half repeats indices
         Pack x, y;
-        gather_pairs(values.data(), index.data(), x, y);
+        gather_pairs(values.data(), this->indices(nodes).data(), x, y);
         for (std::size_t lane = 0; lane < pack_width; ++lane) {
-            EXPECT_EQ(lanes(x)[lane], 2 * index[lane] + 0.5);
-            EXPECT_EQ(lanes(y)[lane], 2 * index[lane] + 1.5);
+            EXPECT_EQ(lanes(x)[lane], 2 * nodes[lane] + 0.5);
+            EXPECT_EQ(lanes(y)[lane], 2 * nodes[lane] + 1.5);
         }
     }
 }
 
-TEST(ScatterAddPairs, RepeatedIndices_AddUpInTheOrderOfTheLanes) {
+TYPED_TEST(Pairs, ScatterToRepeatedIndices_AddUpInTheOrderOfTheLanes) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> number(-1, 1);
     for (int trial = 0; trial < 50; ++trial) {
-        const auto index = random_indices(random, trial < 25 ? n_nodes : 2);
+        const auto nodes = random_nodes(random, trial < 25 ? n_nodes : 2);
         std::vector<double> values(2 * n_nodes);
         for (double& value : values) value = number(random);
         const Pack x = pack_of([&](std::size_t) { return number(random); });
         const Pack y = pack_of([&](std::size_t) { return number(random); });
         std::vector<double> expected = values;
         for (std::size_t lane = 0; lane < pack_width; ++lane) {
-            expected[2 * static_cast<std::size_t>(index[lane])] += lanes(x)[lane];
-            expected[2 * static_cast<std::size_t>(index[lane]) + 1] += lanes(y)[lane];
+            expected[2 * static_cast<std::size_t>(nodes[lane])] += lanes(x)[lane];
+            expected[2 * static_cast<std::size_t>(nodes[lane]) + 1] += lanes(y)[lane];
         }
-        scatter_add_pairs(values.data(), index.data(), x, y);
+        scatter_add_pairs(values.data(), this->indices(nodes).data(), x, y);
         EXPECT_EQ(values, expected) << "bit by bit: same sums in the same order";
     }
 }
