@@ -45,10 +45,26 @@ struct Arguments {
 void add_case_options(CLI::App& command, RunArguments& run) {
     command.add_option("deck", run.deck, "the case (docs/deck.md lists every key)")->required()->type_name("CASE.toml");
     command.add_option("--set", run.set, "laid over the deck: --set run.t_end=0.01 integrator.safety=0.5")
-        ->type_name("KEY=VALUE");
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     command.add_option("--threads", run.threads, "number of threads [all cores]")
         ->check(CLI::Range(1, 1024).description(""))
         ->type_name("N");
+}
+
+/// The words of the command line, last first as CLI11 takes them. `--set a=1 b=2 case.toml` becomes `--set a=1 --set
+/// b=2 case.toml`: left to itself, an option with many values would take the deck for one.
+std::vector<std::string> words_of(int argc, char** argv) {
+    std::vector<std::string> words;
+    bool setting = false;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool is_override = !word.starts_with('-') && word.find('=') != std::string::npos;
+        if (setting && is_override && words.back() != "--set") words.push_back("--set");
+        setting = word == "--set" || (setting && is_override);
+        words.push_back(word);
+    }
+    return {words.rbegin(), words.rend()};
 }
 
 /// @return exit code
@@ -85,7 +101,7 @@ int main(int argc, char** argv) {
     list_command->add_option("topic", arguments.topic, "one of them only")->type_name("");
 
     try {
-        app.parse(argc, argv);
+        app.parse(words_of(argc, argv));
         if (app.get_subcommands().empty()) throw CLI::CallForHelp();
     } catch (const CLI::CallForHelp& help) {
         app.exit(help);

@@ -208,6 +208,7 @@ int Run::end(RunStatus status, const std::string& message, int code) {
     if (!arguments_.quiet) fmt::print(stderr, "results: {}\n", out_.string());
     log_->info("{}: step = {}, t = {:.9g}, balance_error = {:.3g}, wall time = {:.3g} s", name_of(status),
                progress_.step, state_.t, balance_error_, seconds_since(started_));
+    if (status == RunStatus::interrupted) log_->warn("{}", message);
     return code;
 }
 

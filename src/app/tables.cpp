@@ -41,8 +41,7 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
 
 ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) {
     std::vector<Problem> problems;
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-        const ProbeOptions& given = probes[i];
+    for (const ProbeOptions& given : probes) {
         try {
             Probe probe{given.name, locate(mesh, given.at), given.about.has_value(), {1, 0}};
             if (given.about) {
@@ -55,7 +54,7 @@ ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes
             probes_.push_back(std::move(probe));
         } catch (const InputError& error) {
             for (const Problem& problem : error.problems())
-                problems.push_back({fmt::format("output.probes[{}] `{}`", i, given.name), problem.message});
+                problems.push_back({fmt::format("output.probes `{}`", given.name), problem.message});
         }
     }
     if (!problems.empty()) throw InputError(problems);

@@ -14,9 +14,9 @@ std::string use_threads(int n);
 std::string threads_text();
 
 /// Makes threads that wait for the others give up their core after some microseconds, instead of milliseconds: where
-/// other programs want the cores too, two threads are else several times slower than one (docs/decisions/). The OpenMP
-/// runtime reads this from the environment before main() begins, therefore the program starts itself anew, once. Does
-/// nothing if only one thread is wanted, or if the user has set OMP_WAIT_POLICY or GOMP_SPINCOUNT.
+/// other programs want the cores too, two threads are else several times slower than one (docs/decisions/008). The
+/// OpenMP runtime reads this from the environment before main() begins, therefore the program starts itself anew, once.
+/// Does nothing if only one thread is wanted, or if the user has set OMP_WAIT_POLICY or GOMP_SPINCOUNT.
 /// @param n     as in use_threads()
 /// @param argv  of main()
 void wait_briefly(int n, char** argv);

@@ -110,8 +110,8 @@ std::string progress_record(const ProgressState& state, double elapsed, double l
 }
 
 std::string final_line(std::string_view word, const ProgressState& state, double elapsed) {
-    std::string line =
-        fmt::format("{}: t = {:.6g} s, {} steps in {}", word, state.t, state.step, duration_text(elapsed));
+    std::string line = fmt::format("{}: t = {:.6g} s, {} {} in {}", word, state.t, state.step,
+                                   state.step == 1 ? "step" : "steps", duration_text(elapsed));
     if (!std::isnan(state.balance_error)) line += ", " + balance_text(state);
     for (const std::string& text : state.extra) line += ", " + text;
     return line;

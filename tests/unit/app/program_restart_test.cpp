@@ -1,0 +1,123 @@
+// Interrupted runs, and runs that go on: bit for bit what an uninterrupted run gives.
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "unit/app/program.hpp"
+
+namespace gneiss {
+namespace {
+
+using test::Ended;
+using test::memory_deck;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class ProgramRestart : public test::ProgramTest {
+protected:
+    ProgramRestart() { put("case.toml", memory_deck); }
+
+    Ended run(const std::string& out, const std::vector<std::string>& more = {},
+              const std::function<void(pid_t)>& meanwhile = {}) const {
+        std::vector<std::string> arguments{"run", "case.toml", "--threads", "1", "--out", out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return gneiss(arguments, meanwhile);
+    }
+    /// Sends a signal to a run when its first checkpoint is there, an eighth of its way. On a busy machine it may be
+    /// over before the signal comes: then once more.
+    Ended run_and_send(int signal, const std::string& out) const {
+        Ended ended;
+        for (int attempt = 0; attempt < 5 && ended.code <= 0 && ended.code != -signal; ++attempt) {
+            std::filesystem::remove_all(folder / out);
+            ended = run(out, {}, [&](pid_t process) {
+                wait_until([&] { return exists(std::filesystem::path(out) / "checkpoint.h5"); });
+                ::kill(process, signal);
+            });
+        }
+        return ended;
+    }
+    void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) const {
+        for (const char* name : {"probes.csv", "history.csv", "checkpoint.h5", "fields.pvd", "fields_000004.vtu"}) {
+            ASSERT_THAT(contents(a / name), Not(IsEmpty())) << name;
+            EXPECT_TRUE(contents(a / name) == contents(b / name)) << name;
+        }
+    }
+};
+
+TEST_F(ProgramRestart, Signal_BetweenSteps_SavesAndLeavesWithItsCode) {
+    ASSERT_EQ(run("whole").code, 0);
+    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+        const std::string out = std::to_string(code);
+        const Ended ended = run_and_send(signal, out);
+        ASSERT_EQ(ended.code, code) << "the run was over before the signal came: " << ended.err;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("stopped: t = "), HasSubstr("--restart " + out + "/checkpoint.h5")));
+        const auto summary = this->summary(out);
+        EXPECT_EQ(summary["status"], "interrupted");
+        EXPECT_LT(summary["time"]["t_s"], 0.04);
+
+        ASSERT_EQ(run(out, {"--restart", out + "/checkpoint.h5"}).code, 0);
+        EXPECT_EQ(this->summary(out)["status"], "done");
+        expect_same_results("whole", out);
+    }
+}
+
+TEST_F(ProgramRestart, PeriodicCheckpoint_AfterAKill_GivesTheSameBits) {
+    ASSERT_EQ(run("whole").code, 0);
+    const Ended ended = run_and_send(SIGKILL, "killed");
+    ASSERT_EQ(ended.code, -SIGKILL) << "the run was over before the signal came";
+    EXPECT_EQ(summary("killed")["status"], "running");
+    ASSERT_EQ(run("killed", {"--restart", "killed/checkpoint.h5"}).code, 0);
+    expect_same_results("whole", "killed");
+}
+
+TEST_F(ProgramRestart, IntoAnotherFolder_HoldsWhatComesAfter) {
+    ASSERT_EQ(run("whole").code, 0);
+    ASSERT_EQ(run_and_send(SIGINT, "first").code, 130);
+    ASSERT_EQ(run("second", {"--restart", "first/checkpoint.h5"}).code, 0);
+    const std::string whole = contents("whole/probes.csv"), second = contents("second/probes.csv");
+    const std::string rows = second.substr(second.find('\n') + 1);
+    EXPECT_TRUE(whole.ends_with(rows));
+    EXPECT_GT(whole.size(), second.size());
+    EXPECT_TRUE(contents("whole/checkpoint.h5") == contents("second/checkpoint.h5"));
+}
+
+TEST_F(ProgramRestart, OtherDeck_IsWarnedOf) {
+    ASSERT_EQ(run("a", {"--set", "run.t_end=1e-3"}).code, 0);
+    const Ended ended = run("a", {"--set", "run.t_end=2e-3", "--restart", "a/checkpoint.h5"});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("warning: restart: the checkpoint was written under another deck (fnv1a64:"));
+    // two rows for each of two milliseconds would be there if the restart wrote its own time again
+    const std::string history = contents("a/history.csv");
+    EXPECT_EQ(history.find("\n0.001,"), history.rfind("\n0.001,"));
+    EXPECT_NE(history.find("\n0.001,"), std::string::npos);
+}
+
+TEST_F(ProgramRestart, WhatDoesNotFit_IsRefused) {
+    ASSERT_EQ(run("a", {"--set", "run.t_end=1e-3"}).code, 0);
+    const std::vector<std::string> restart{"--restart", "a/checkpoint.h5"};
+    const auto error_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = restart;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ended ended = run("b", arguments);
+        EXPECT_EQ(ended.code, 2);
+        return ended.err;
+    };
+    EXPECT_THAT(error_of({"--set", "run.t_end=1e-3"}),
+                HasSubstr("a/checkpoint.h5: stands at t = 0.001 s, the deck ends at 0.001 s: nothing is left to run"));
+    EXPECT_THAT(error_of({"--set", "mesh.width=5.0"}), HasSubstr("was written for another mesh than the deck gives"));
+    EXPECT_THAT(error_of({"--set", "solid.element=cst"}), HasSubstr("another mesh"));
+    EXPECT_THAT(error_of({"--set", "material.0.form=hyper", "material.0.in_situ_stress=[0, 0, 0]"}),
+                Not(IsEmpty()));  // refused by the deck: in-situ stress is for hypo only
+    put("a/checkpoint.h5", "no checkpoint");
+    EXPECT_THAT(error_of({}), HasSubstr("a/checkpoint.h5: is no checkpoint"));
+    EXPECT_FALSE(exists("b"));
+    const Ended missing = run("b", {"--restart", "nowhere.h5"});
+    EXPECT_NE(missing.code, 0);
+    EXPECT_THAT(missing.err, HasSubstr("nowhere.h5"));
+}
+
+}  // namespace
+}  // namespace gneiss

@@ -1,0 +1,110 @@
+#include "app/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "system/march.hpp"
+
+namespace gneiss {
+namespace {
+
+struct Counts {
+    int rows = 0, checkpoints = 0, steps = 0;
+    double shortest = 1e300;
+    std::vector<double> frames;
+};
+
+/// Steps of at most dt to the end, as a run takes them.
+Counts march(const CaseOptions& options, double dt) {
+    const Schedule schedule(options);
+    Counts counts;
+    for (double t = 0; t < options.run.t_end;) {
+        double stop = schedule.next_stop(t);
+        if (!(stop < options.run.t_end) || reached(stop, options.run.t_end)) stop = options.run.t_end;
+        const double n = std::ceil((stop - t) / dt - 1e-9), length = (stop - t) / std::max(1.0, n);
+        const double next = n > 1 ? t + length : stop;
+        const StepReport step{next, length};
+        counts.rows += schedule.row_due(step);
+        counts.checkpoints += schedule.checkpoint_due(step);
+        if (schedule.frame_due(step)) counts.frames.push_back(next);
+        counts.shortest = std::min(counts.shortest, length);
+        ++counts.steps;
+        t = next;
+    }
+    return counts;
+}
+
+CaseOptions options_until(double t_end) {
+    CaseOptions options;
+    options.run.t_end = t_end;
+    return options;
+}
+
+TEST(Schedule, NothingAsked_ThousandRowsAndTheLastFrame) {
+    const Counts counts = march(options_until(1), 1e-4);
+    EXPECT_EQ(counts.rows, 1000);
+    EXPECT_EQ(counts.frames, std::vector<double>{1});
+    EXPECT_EQ(counts.checkpoints, 0);
+}
+
+TEST(Schedule, NothingAsked_StepsAreNotShortened) {
+    EXPECT_TRUE(std::isinf(Schedule(options_until(1)).next_stop(0.3)));
+    EXPECT_EQ(march(options_until(1), 0.25).rows, 4);  // a row a step at most
+}
+
+TEST(Schedule, Intervals_TenthsOfOne_HitTheirMultiplesOnce) {
+    CaseOptions options = options_until(1);
+    options.output.fields = 0.1;
+    options.output.history = 0.05;
+    options.run.checkpoint = 0.3;
+    const Counts counts = march(options, 0.007);
+    ASSERT_EQ(counts.frames.size(), 10u);
+    for (int k = 0; k < 10; ++k) EXPECT_DOUBLE_EQ(counts.frames[static_cast<std::size_t>(k)], 0.1 * (k + 1));
+    EXPECT_EQ(counts.frames.back(), 1);
+    EXPECT_EQ(counts.rows, 20);
+    EXPECT_EQ(counts.checkpoints, 3);
+    EXPECT_GT(counts.shortest, 0.005);  // 0.3 and 3 * 0.1 are one instant: no step between them
+}
+
+TEST(Schedule, FieldTimes_BesideAnInterval_AreHitOnce) {
+    CaseOptions options = options_until(1);
+    options.output.fields = 0.1;
+    options.output.field_times = {0.3, 0.6, 0.123, 1, 0, 0.7, 5};
+    const Counts counts = march(options, 0.02);
+    EXPECT_EQ(counts.frames.size(), 11u);
+    EXPECT_EQ(counts.frames[1], 0.123);
+    EXPECT_GT(counts.shortest, 0.002);
+}
+
+TEST(Schedule, EndBetweenMultiples_HasARowAndAFrame) {
+    CaseOptions options = options_until(0.95);
+    options.output.fields = options.output.history = 0.1;
+    const Counts counts = march(options, 0.01);
+    EXPECT_EQ(counts.rows, 10);
+    EXPECT_EQ(counts.frames.size(), 10u);
+    EXPECT_EQ(counts.frames.back(), 0.95);
+}
+
+TEST(Schedule, Expected_CountsRowsAndFrames) {
+    CaseOptions options = options_until(1);
+    options.output.fields = 0.1;
+    options.output.history = 0.01;
+    options.output.field_times = {0.123};
+    const Schedule schedule(options);
+    EXPECT_EQ(schedule.expected_rows(1e-3), 101);
+    EXPECT_EQ(schedule.expected_rows(0.1), 11);
+    EXPECT_EQ(schedule.most_frames(), 13);
+}
+
+TEST(Reached, RoundOff_IsNoTime) {
+    EXPECT_TRUE(reached(0.3, 3 * 0.1));
+    EXPECT_TRUE(reached(3 * 0.1, 0.3));
+    EXPECT_FALSE(reached(0.3, 0.3 + 1e-9));
+    EXPECT_FALSE(reached(0, 1e-300));
+    EXPECT_FALSE(reached(1, INFINITY));
+}
+
+}  // namespace
+}  // namespace gneiss
