@@ -17,7 +17,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 usage() { sed -n '2,/^set/{s/^# \{0,1\}//p}' "$0"; }
 wrong_use() { printf 'studies/run.sh: %s\n' "$1" >&2; usage >&2; exit 2; }
 
-name= profile=full jobs=$(nproc)
+name='' profile=full jobs=$(nproc)
 while [[ $# -gt 0 ]]; do
     case $1 in
         --quick) profile=quick; shift ;;
@@ -28,7 +28,8 @@ while [[ $# -gt 0 ]]; do
     esac
 done
 [[ -n $name ]] || wrong_use "which study?"
-[[ -f studies/$name/Snakefile ]] || wrong_use "no study $name; there are: $(cd studies && echo */Snakefile | sed 's,/Snakefile,,g')"
+[[ -f studies/$name/Snakefile ]] \
+    || wrong_use "no study $name; there are: $(cd studies && echo */Snakefile | sed 's,/Snakefile,,g')"
 
 preset=${GNEISS_PRESET:-release}
 root=$PWD results=$PWD/results/$name
@@ -44,7 +45,8 @@ cmake/install_debian_packages.sh
 took
 
 step 2/4 "building the program with preset $preset in build/$preset: some minutes the first time"
-cmake --preset "$preset" >/dev/null || fail "configuring failed; if build/$preset is left over from another place, delete it"
+cmake --preset "$preset" >/dev/null \
+    || fail "configuring failed; if build/$preset is left over from another place, delete it"
 NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target gneiss_app </dev/null \
     || fail "the build failed; the first error is above"
 [[ -x $program ]] || fail "the build left no $program"
