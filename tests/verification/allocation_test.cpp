@@ -1,0 +1,84 @@
+// Once it runs, a step allocates nothing: a program of its own, since it counts every allocation of the process.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "integrators/central_difference.hpp"
+#include "mesh/make_mesh.hpp"
+#include "model/boundaries.hpp"
+#include "model/impedance.hpp"
+#include "model/loads.hpp"
+#include "model/make_blocks.hpp"
+#include "model/solid_system.hpp"
+
+namespace {
+std::atomic<std::size_t> n_allocations{0};
+}
+
+void* operator new(std::size_t size) {
+    ++n_allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace gneiss {
+namespace {
+
+/// Everything that a step can meet: history, viscosity, damping, a follower pressure, a moving and an absorbing edge.
+SolidSystem full_house(const Mesh& mesh, Form form) {
+    SolidOptions solid;
+    MaterialOptions material;
+    material.form = form;
+    material.density = 1000;
+    material.constants = {0.267e9, 0.8e9, 1.6e9, 0.8e9};
+    material.shear_viscosity = 1e3;
+    LoadOptions pressure;
+    pressure.kind = LoadOptions::Kind::pressure;
+    pressure.on = "left";
+    pressure.value[0] = Formula(1e5);
+    pressure.amplitude.kind = AmplitudeOptions::Kind::ramp;
+    pressure.amplitude.end = 1.0;
+    BoundaryOptions moving, absorbing;
+    moving.kind = BoundaryOptions::Kind::velocity;
+    moving.on = "bottom";
+    moving.value = {std::nullopt, Formula(0.01)};
+    absorbing.kind = BoundaryOptions::Kind::absorbing;
+    absorbing.on = "right";
+
+    SolidSystem::Parts parts;
+    parts.blocks = make_blocks(mesh, solid, {material});
+    parts.terms = make_loads(mesh, {pressure}, solid.thickness);
+    parts.constraints = make_constraints(mesh, {moving, absorbing});
+    parts.damping.mass_proportional = 10;
+    const auto edges = absorbing_edges(mesh, {moving, absorbing});
+    parts.damping.blocks = absorbing_blocks(
+        mesh, edges, [&](int) { return plane_stiffness(material.constants, 0.0, material.density); }, solid.thickness);
+    return SolidSystem(mesh, std::move(parts));
+}
+
+TEST(Step, OnceUnderWay_AllocatesNothing) {
+    MeshOptions options;
+    options.source = MeshOptions::Source::rectangle;
+    options.cells = {40, 40};  // several chunks
+    const Mesh mesh = make_mesh(options, true, {});
+    for (const Form form : {Form::hyper, Form::hypo}) {
+        const SolidSystem system = full_house(mesh, form);
+        CentralDifference integrator({});
+        State state = system.initial_state();
+        integrator.start(system, state, StartReason::fresh);
+        constexpr double far_away = 1.0;
+        constexpr int warm_up = 5, n_steps = 200;  // the look at the stable step is among them
+        for (int step = 0; step < warm_up; ++step) integrator.advance(system, state, far_away);
+        const std::size_t before = n_allocations;
+        for (int step = 0; step < n_steps; ++step) integrator.advance(system, state, far_away);
+        EXPECT_EQ(n_allocations - before, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace gneiss

@@ -1,0 +1,111 @@
+// Whole runs: the energy balance, the number of threads, save and load.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "support/one_thread.hpp"
+#include "verification/run_solid.hpp"
+
+namespace gneiss {
+namespace {
+
+/// A block under everything there is: pressure that follows, traction, damping, viscosity, absorbing and moving sides.
+test::SolidDescription everything(Form form) {
+    test::SolidDescription what;
+    what.materials[0].form = form;
+    what.materials[0].shear_viscosity = 2e3;
+    if (form == Form::hypo) what.materials[0].stiffening = {1, 1e7, 0.5};
+    what.mass_damping = 50;
+    LoadOptions pressure;
+    pressure.kind = LoadOptions::Kind::pressure;
+    pressure.on = "top";
+    pressure.value[0] = 5e6;
+    pressure.amplitude.kind = AmplitudeOptions::Kind::heaviside;
+    LoadOptions weight;
+    weight.kind = LoadOptions::Kind::body_force;
+    weight.value = {0, -9810};
+    LoadOptions late = pressure;
+    late.kind = LoadOptions::Kind::traction;
+    late.on = "top";
+    late.value = {2e6, 0};
+    late.amplitude.start = 7.3e-4;
+    what.loads = {pressure, weight, late};
+    BoundaryOptions absorbing, moving;
+    absorbing.kind = BoundaryOptions::Kind::absorbing;
+    absorbing.on = "left";
+    moving.on = "bottom";
+    moving.value = {Formula(0.0), Formula(1e-3)};
+    moving.amplitude.kind = AmplitudeOptions::Kind::ramp;
+    moving.amplitude.end = 1e-3;
+    BoundaryOptions pushing;
+    pushing.kind = BoundaryOptions::Kind::velocity;
+    pushing.on = "top_right";
+    pushing.value[0] = Formula("-2*y");
+    pushing.amplitude.kind = AmplitudeOptions::Kind::expression;
+    pushing.amplitude.expression = "1 - cos(3000*t)";
+    what.boundaries = {absorbing, moving, pushing};
+
+    return what;
+}
+
+constexpr double t_end = 2e-3;
+
+TEST(WholeRun, EnergyBalance_EverythingActs_ClosesWithOrderTwo) {
+    for (const bool compt : {false, true}) {
+        for (const Form form : {Form::hyper, Form::hypo}) {
+            const test::Solid solid = test::make_solid(test::rectangle(compt, 2, 2, {8, 8}), everything(form));
+            const double coarse = test::run_solid(*solid.system, t_end, {.safety = 0.4}).ledger.balance_error();
+            const test::SolidRun run = test::run_solid(*solid.system, t_end, {.safety = 0.2});
+            EXPECT_LT(run.ledger.balance_error(), 1e-3) << compt;  // 150 steps from a jump of the pressure to the end
+            EXPECT_LT(run.ledger.balance_error(), coarse / 3) << compt;
+            // and every column has something to say
+            const PathEnergies& path = run.ledger.path;
+            for (const double entry : {path.external_work, std::abs(path.support_work), path.damping, path.viscous,
+                                       path.absorbing, run.ledger.stored.sum(), run.ledger.kinetic})
+                EXPECT_GT(entry, 1e-3 * path.external_work) << compt;
+        }
+    }
+}
+
+TEST(WholeRun, Threads_OneTwoAndThree_GiveTheSameBits) {
+    std::vector<State> ends;
+    for (const int threads : {1, 2, 3}) {
+        omp_set_num_threads(threads);
+        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {24, 24}), everything(Form::hypo));
+        ends.push_back(test::run_solid(*solid.system, 3e-4).state);
+    }
+    omp_set_num_threads(1);
+    EXPECT_GT(ends[0].path.external_work, 0);
+    EXPECT_EQ(ends[1], ends[0]);
+    EXPECT_EQ(ends[2], ends[0]);
+}
+
+TEST(WholeRun, SavedHalfwayAndLoaded_End_HasTheSameBits) {
+    for (const Form form : {Form::hyper, Form::hypo}) {
+        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), everything(form));
+        State state = solid.system->initial_state(), saved;
+        IntegratorMemory memory;
+        CentralDifference integrator({});
+        March march;
+        march.t_end = t_end;
+        march.after_step = [&](const StepReport& step) {
+            if (memory.empty() && step.t > 0.4 * t_end) {
+                saved = state;
+                memory = integrator.save();
+            }
+            return true;
+        };
+        march.run(*solid.system, integrator, state, false);
+
+        const test::Solid again = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), everything(form));
+        CentralDifference other({});
+        other.load(*again.system, saved, memory);
+        march.after_step = {};
+        march.run(*again.system, other, saved, true);
+        EXPECT_EQ(saved, state);
+        EXPECT_EQ(other.save(), integrator.save());
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
