@@ -77,7 +77,7 @@ struct MunjizaHypoelastic {
     static constexpr std::size_t n_history = direct ? 4 + WorkMeter::n_history : 4;
     static constexpr bool has_stored_energy = false;
     static constexpr bool offers_centre = direct;
-    static constexpr bool uniform_q = true;
+    static constexpr bool uniform_q = false;  ///< moduli that depend on the state differ between the sub-triangles
 
     template <class T>
     using Memory = PointMemory<T, n_internal, n_history>;
