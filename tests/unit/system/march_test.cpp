@@ -121,8 +121,18 @@ TEST_F(MarchOverTime, NothingSpecial_StepsToTheEnd) {
 TEST_F(MarchOverTime, Stops_EndStepsExactly) {
     march.next_stop = [](double t) { return t < 0.75 ? 0.75 : t < 1.25 ? 1.25 : infinity; };
     run();
-    EXPECT_THAT(diary,
-                ElementsAre("start fresh at 0.", "step to 0.75", "step to 1.25", "step to 2.25", "step to 2.5"));
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 0.75", "step to 1.25", "step to 2.25", "step to 2.5"));
+}
+
+TEST_F(MarchOverTime, StopAndEventEqualButForRoundOff_EndOneStep) {
+    const double sum = 0.1 + 0.2;  // differs from 0.3 by a rounding
+    ASSERT_NE(sum, 0.3);
+    march.t_end = 1;
+    march.next_stop = [=](double t) { return t < 0.3 ? 0.3 : infinity; };
+    add_event("jump", {sum}, EventOutcome::reinitialise);
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 0.3", "jump at 0.3", "start reinitialise at 0.3",
+                                   "step to 1."));
 }
 
 TEST_F(MarchOverTime, EventsDueAtTheStart_HappenBeforeTheIntegratorStarts) {
@@ -188,8 +198,8 @@ TEST_F(MarchOverTime, Resumed_NeitherStartsNorRepeatsEvents) {
     state.t = 0.5;
     march.after_start = [&] { diary.push_back("after start"); };
     run(true);
-    EXPECT_THAT(diary, ElementsAre("after start", "step to 1.5", "jump at 1.5", "start reinitialise at 1.5",
-                                   "step to 2.5"));
+    EXPECT_THAT(diary,
+                ElementsAre("after start", "step to 1.5", "jump at 1.5", "start reinitialise at 1.5", "step to 2.5"));
 }
 
 TEST_F(MarchOverTime, FailedStep_LeavesTheLastAcceptedState) {
