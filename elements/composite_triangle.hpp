@@ -17,9 +17,9 @@ struct CompositeTriangle {
     static constexpr bool similar = false;
 };
 
-/// The same element with straight sides and mid-side nodes in the middle: the sub-triangles are one triangle, moved, and
-/// the central one turned by 180 degrees. A quarter of the geometry is stored and streamed. Each (a, b, c) is that of
-/// Table 1, rotated so that corresponding edges correspond.
+/// The same element with straight sides and mid-side nodes in the middle: the sub-triangles are one triangle, moved,
+/// and the central one turned by 180 degrees. A quarter of the geometry is stored and streamed. Each (a, b, c) is that
+/// of Table 1, rotated so that corresponding edges correspond.
 struct StraightCompositeTriangle {
     static constexpr int n_nodes = composite_nodes;
     static constexpr int n_sub = sub_triangles_per_composite;

@@ -23,8 +23,8 @@ enum class Sampling {
 /// Geometry of the reference shape with the axes folded in.
 template <class Element, class V>
 struct TriangleGeometry {
-    /// K = Xbar^-1 [alpha beta] of one sub-triangle, Xbar = [x_a - x_b, x_c - x_b]: [H alpha, H beta] = [d_a, d_c] K with
-    /// the displacement differences d = u_a - u_b, u_c - u_b.
+    /// K = Xbar^-1 [alpha beta] of one sub-triangle, Xbar = [x_a - x_b, x_c - x_b]: [H alpha, H beta] = [d_a, d_c] K
+    /// with the displacement differences d = u_a - u_b, u_c - u_b.
     struct Sub {
         V k_a_alpha, k_a_beta, k_c_alpha, k_c_beta;  ///< 1/m
         V volume;                                    ///< thickness times initial area, m3
@@ -47,11 +47,15 @@ struct TriangleGeometry {
         } else {
             T sum(0.0);
             for (int s = 0; s < Element::n_sub; ++s) {
-                if constexpr (Element::similar) sum += values[s];
-                else sum += sub[s].volume * values[s];
+                if constexpr (Element::similar)
+                    sum += values[s];
+                else
+                    sum += sub[s].volume * values[s];
             }
-            if constexpr (Element::similar) return (1.0 / Element::n_sub) * sum;
-            else return inverse_volume * sum;
+            if constexpr (Element::similar)
+                return (1.0 / Element::n_sub) * sum;
+            else
+                return inverse_volume * sum;
         }
     }
 };
@@ -156,7 +160,9 @@ struct TriangleStress {
 };
 
 template <class Law>
-concept TakesGivenStress = requires { &Law::template stress_at<double, double>; };
+concept TakesGivenStress = requires {
+    &Law::template stress_at<double, double>;
+};
 
 /// @param given  false: stresses follow from u and the accepted memory; true: from the memory's z as it is
 template <class Element, bool given, class Law, class T, class V>
@@ -174,8 +180,10 @@ TriangleStress<Element, Law, T> triangle_stress(
             stress.point[s] = law.stress(kinematics.point[s], stress.volume, memory[s]);
         q[s] = stress.point[s].q;
     }
-    if constexpr (Law::uniform_q) stress.q = q[0];
-    else stress.q = geometry.mean(q);
+    if constexpr (Law::uniform_q)
+        stress.q = q[0];
+    else
+        stress.q = geometry.mean(q);
     return stress;
 }
 
@@ -209,8 +217,10 @@ std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T
         area_rate[s] = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
     }
     T change;
-    if constexpr (sampling == Sampling::mean) change = geometry.mean(area_rate);
-    else change = area_rate[Element::central];
+    if constexpr (sampling == Sampling::mean)
+        change = geometry.mean(area_rate);
+    else
+        change = area_rate[Element::central];
     for (auto& rate : rates) rate.volume = inverse_s_v * change;
     return rates;
 }
@@ -218,8 +228,8 @@ std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T
 /// Adds the nodal forces of the viscous stress, N; returns the power it dissipates, W.
 template <class Element, class T, class K, class V>
 T add_viscous_force(const ViscousStress& viscosity, const TriangleKinematics<Element, K>& kinematics,
-                    const std::array<PointRates<T>, Element::n_sub>& rates, const TriangleGeometry<Element, V>& geometry,
-                    std::array<Vec2<T>, Element::n_nodes>& f) {
+                    const std::array<PointRates<T>, Element::n_sub>& rates,
+                    const TriangleGeometry<Element, V>& geometry, std::array<Vec2<T>, Element::n_nodes>& f) {
     T power(0.0);
     for (int s = 0; s < Element::n_sub; ++s) {
         const PointStress<T> stress = viscosity.stress(kinematics.point[s], rates[s]);

@@ -7,7 +7,8 @@
 namespace gneiss {
 
 /// e_v comes from the composite's volume, everything else from F of the sub-triangle.
-/// @tparam direct  false: `conjugate`, stresses are the gradient of a stored energy. true: the paper's pragmatic map, equal
+/// @tparam direct  false: `conjugate`, stresses are the gradient of a stored energy. true: the paper's pragmatic map,
+/// equal
 ///                 to first order in strain and not conservative beyond it; its energy is the accumulated stress power.
 template <bool direct>
 struct MunjizaHyperelastic {
@@ -15,7 +16,7 @@ struct MunjizaHyperelastic {
     static constexpr std::size_t n_history = direct ? WorkMeter::n_history : 0;
     static constexpr bool has_stored_energy = !direct;
     static constexpr bool offers_centre = direct;  ///< `centre` is not the gradient of an energy either
-    static constexpr bool uniform_q = true;  ///< q is the same in all sub-triangles of a composite
+    static constexpr bool uniform_q = true;        ///< q is the same in all sub-triangles of a composite
 
     template <class T>
     using Memory = PointMemory<T, n_internal, n_history>;
@@ -25,7 +26,9 @@ struct MunjizaHyperelastic {
     template <class T>
     using Volume = MunjizaVolume<T>;
     template <class T>
-    Volume<T> volume(const T& volume_strain_minus_1) const { return munjiza_volume(volume_strain_minus_1); }
+    Volume<T> volume(const T& volume_strain_minus_1) const {
+        return munjiza_volume(volume_strain_minus_1);
+    }
 
     template <class T, class V>
     PointStress<T> stress(const PointKinematics<T>& point, const Volume<T>& s_v, const Memory<V>& accepted) const {
@@ -43,9 +46,7 @@ struct MunjizaHyperelastic {
 
     /// Stored energy per initial volume, J/m3.
     template <class T>
-    T energy_density(const PointKinematics<T>& point, const Volume<T>& s_v) const
-        requires(!direct)
-    {
+    T energy_density(const PointKinematics<T>& point, const Volume<T>& s_v) const requires(!direct) {
         const MunjizaComponents<T> e = munjiza_strains(munjiza_stretches(point), s_v.strain).e;
         return 0.5 * (constants.M_v * (e.v * e.v) + constants.M_alpha * (e.alpha * e.alpha) +
                       constants.M_beta * (e.beta * e.beta) + (shear_energy_weight * constants.M_psi) * (e.psi * e.psi));
@@ -70,8 +71,10 @@ struct MunjizaHyperelastic {
     template <class T>
     std::array<T, n_internal> rate(const PointKinematics<T>& point, const Volume<T>&, const PointRates<T>& rates,
                                    const PointStress<T>& stress, const T& q, const Memory<T>&) const {
-        if constexpr (direct) return {WorkMeter::power(point, rates, stress, q)};
-        else return {};
+        if constexpr (direct)
+            return {WorkMeter::power(point, rates, stress, q)};
+        else
+            return {};
     }
 
     /// Small-strain stiffness at rest, for wave speeds and impedances.

@@ -31,9 +31,13 @@ struct Stiffening {
 
 private:
     template <class T>
-    static T positive(const T& x) { return choose(plain(x) > 0.0, x, T(0.0)); }
+    static T positive(const T& x) {
+        return choose(plain(x) > 0.0, x, T(0.0));
+    }
     template <class T>
-    static T negative(const T& x) { return choose(plain(x) > 0.0, T(0.0), x); }
+    static T negative(const T& x) {
+        return choose(plain(x) > 0.0, T(0.0), x);
+    }
 
     /// Phi(p) = integral from 0 to p of dp/g, for p >= 0.
     template <class T>
@@ -59,8 +63,8 @@ T Stiffening::mean_factor(const T& p0, const T& pi) const {
     const T grown = n == 1 ? y : T(ln1p(T((1 - n) * y)) * (1 / (1 - n)));
     const T above = base * T(exponential_minus_1(grown)) * (1 / kappa);
     const T below = pi - step_above;
-    // Towards a vanishing step the quotient becomes 0/0, and its derivative loses digits as eps/(kappa pi). The midpoint
-    // rule is then exact to round-off, (kappa pi)^2; across p = 0 to n kappa pi/4.
+    // Towards a vanishing step the quotient becomes 0/0, and its derivative loses digits as eps/(kappa pi). The
+    // midpoint rule is then exact to round-off, (kappa pi)^2; across p = 0 to n kappa pi/4.
     const double vanishing = 1e-8;
     const auto tiny = plain(T(pi * pi)) * (kappa * kappa) <= vanishing * vanishing;
     const T quotient = (above + below) / choose(tiny, T(1.0), pi);
@@ -88,7 +92,9 @@ struct MunjizaHypoelastic {
     template <class T>
     using Volume = MunjizaVolume<T>;
     template <class T>
-    Volume<T> volume(const T& s_v_minus_1) const { return munjiza_volume(s_v_minus_1); }
+    Volume<T> volume(const T& s_v_minus_1) const {
+        return munjiza_volume(s_v_minus_1);
+    }
 
     template <class T, class V>
     PointStress<T> stress(const PointKinematics<T>& point, const Volume<T>& s_v, const Memory<V>& accepted) const {
@@ -176,7 +182,9 @@ struct MunjizaHypoelastic {
 
 private:
     template <class T>
-    static T pressure(const Memory<T>& memory) { return -(memory.z[0] + 0.5 * (memory.z[1] + memory.z[2])); }
+    static T pressure(const Memory<T>& memory) {
+        return -(memory.z[0] + 0.5 * (memory.z[1] + memory.z[2]));
+    }
 
     /// The exact update of the stresses from the accepted state to total strains e.
     template <class T, class V>

@@ -71,7 +71,8 @@ MunjizaStrains<T> munjiza_strains(const MunjizaStretches<T>& stretches, const T&
             angle.ratio};
 }
 
-/// `conjugate`: the exact gradient of w = 1/2 (M_v e_v^2 + M_alpha e_alpha^2 + M_beta e_beta^2 + psi-bar^2/2 M_psi e_psi^2).
+/// `conjugate`: the exact gradient of w = 1/2 (M_v e_v^2 + M_alpha e_alpha^2 + M_beta e_beta^2 + psi-bar^2/2 M_psi
+/// e_psi^2).
 /// @param m                Munjiza stress, Pa; of psi: m_psi psi-bar/psi
 /// @param inverse_volume   1/s_v of the composite
 template <class T>
@@ -85,15 +86,16 @@ PointStress<T> conjugate_map(const PointKinematics<T>& point, const MunjizaStret
 }
 
 /// `direct`: Cauchy stress from traction components along the edges of the current material element. Its transform
-/// P = det F sigma F^-T reads, on the edge of length |beta|: P alpha = |beta| (m_alpha alpha^ + tau beta^), and likewise
-/// P beta = |alpha| (m_beta beta^ + tau alpha^), with unit vectors ^ and tau = -(psi-bar/2) m_psi.
+/// P = det F sigma F^-T reads, on the edge of length |beta|: P alpha = |beta| (m_alpha alpha^ + tau beta^), and
+/// likewise P beta = |alpha| (m_beta beta^ + tau alpha^), with unit vectors ^ and tau = -(psi-bar/2) m_psi.
 /// @param m  Munjiza stress, Pa
 template <class T>
 PointStress<T> direct_map(const PointKinematics<T>& point, const MunjizaStretches<T>& stretches,
                           const MunjizaComponents<T>& m) {
     const Vec2<T> alpha = point.alpha(), beta = point.beta();
     const T tau = -half_psi_bar * m.psi;
-    const T lengths = square_root(T((T(1.0) + stretches.alpha_squared_minus_1) * (T(1.0) + stretches.beta_squared_minus_1)));
+    const T lengths =
+        square_root(T((T(1.0) + stretches.alpha_squared_minus_1) * (T(1.0) + stretches.beta_squared_minus_1)));
     return {(m.alpha * lengths * stretches.inverse_alpha_squared) * alpha + tau * beta,
             (m.beta * lengths * stretches.inverse_beta_squared) * beta + tau * alpha, m.v};
 }

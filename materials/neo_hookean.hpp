@@ -29,23 +29,23 @@ struct NeoHookean {
 
     template <class T>
     struct Volume {
-        T change;        ///< s_v - 1; not from s_v, which has lost its digits
-        T s_v, inverse;  ///< s_v, 1/s_v
-        T log_area;      ///< ln s_v
-        T log_thickness; ///< ln s_z
+        T change;         ///< s_v - 1; not from s_v, which has lost its digits
+        T s_v, inverse;   ///< s_v, 1/s_v
+        T log_area;       ///< ln s_v
+        T log_thickness;  ///< ln s_z
     };
     template <class T>
     Volume<T> volume(const T& s_v_minus_1) const {
         const T s_v = T(1.0) + s_v_minus_1, log_area = ln1p(s_v_minus_1);
         T log_thickness = T(0.0);
         if constexpr (plane_stress) {
-            // Newton on mu (e^(2 y) - 1) + lambda (ln s_v + y), convex and increasing in y. From the small-strain answer
-            // eight steps reach round-off for any |ln s_v| < 2; the derivative comes out with the value.
+            // Newton on mu (e^(2 y) - 1) + lambda (ln s_v + y), convex and increasing in y. From the small-strain
+            // answer eight steps reach round-off for any |ln s_v| < 2; the derivative comes out with the value.
             log_thickness = (-lambda / (2 * mu + lambda)) * log_area;
             for (int step = 0; step < 8; ++step) {
                 const T grown = exponential_minus_1(T(2.0 * log_thickness));
-                log_thickness -= (mu * grown + lambda * (log_area + log_thickness)) /
-                                 (2 * mu * (grown + T(1.0)) + T(lambda));
+                log_thickness -=
+                    (mu * grown + lambda * (log_area + log_thickness)) / (2 * mu * (grown + T(1.0)) + T(lambda));
             }
         }
         return {s_v_minus_1, s_v, T(1.0) / s_v, log_area, log_thickness};
@@ -67,13 +67,15 @@ struct NeoHookean {
     template <class T>
     T energy_density(const PointKinematics<T>& point, const Volume<T>& volume) const {
         const T y = volume.log_thickness, log_volume = volume.log_area + y;
-        return (0.5 * mu) * (2.0 * (volume.change - volume.log_area) +
-                             volume.s_v * distortion(point) / point.jacobian() + exponential_minus_1(T(2.0 * y)) - 2.0 * y) +
+        return (0.5 * mu) *
+                   (2.0 * (volume.change - volume.log_area) + volume.s_v * distortion(point) / point.jacobian() +
+                    exponential_minus_1(T(2.0 * y)) - 2.0 * y) +
                (0.5 * lambda) * (log_volume * log_volume);
     }
 
     template <class T, class V>
-    Memory<T> update(const PointKinematics<T>&, const Volume<T>&, const PointStress<T>&, const T&, const Memory<V>&) const {
+    Memory<T> update(const PointKinematics<T>&, const Volume<T>&, const PointStress<T>&, const T&,
+                     const Memory<V>&) const {
         return {};
     }
     template <class T>

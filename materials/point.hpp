@@ -15,13 +15,13 @@ namespace gneiss {
 /// Deformation of one sub-triangle, measured from the displacement gradient H = F - I  [FORMULATION 3, Precision].
 template <class T>
 struct PointKinematics {
-    Vec2<T> axis;              ///< alpha in the reference shape, unit vector
-    Vec2<T> h_alpha, h_beta;   ///< H alpha, H beta
-    T area_strain;             ///< det F - 1 of this sub-triangle
+    Vec2<T> axis;             ///< alpha in the reference shape, unit vector
+    Vec2<T> h_alpha, h_beta;  ///< H alpha, H beta
+    T area_strain;            ///< det F - 1 of this sub-triangle
 
-    Vec2<T> alpha() const { return axis + h_alpha; }         ///< current axis, (4)
+    Vec2<T> alpha() const { return axis + h_alpha; }  ///< current axis, (4)
     Vec2<T> beta() const { return turned(axis) + h_beta; }
-    T jacobian() const { return T(1.0) + area_strain; }      ///< det F
+    T jacobian() const { return T(1.0) + area_strain; }  ///< det F
 };
 
 /// det F - 1 = tr H + det H, without the loss of digits of det F - 1.
@@ -52,9 +52,13 @@ struct PointStress {
 
 /// (cof F) alpha and (cof F) beta.
 template <class T>
-Vec2<T> cofactor_alpha(const PointKinematics<T>& point) { return -turned(point.beta()); }
+Vec2<T> cofactor_alpha(const PointKinematics<T>& point) {
+    return -turned(point.beta());
+}
 template <class T>
-Vec2<T> cofactor_beta(const PointKinematics<T>& point) { return turned(point.alpha()); }
+Vec2<T> cofactor_beta(const PointKinematics<T>& point) {
+    return turned(point.alpha());
+}
 
 /// What a law remembers at one sub-triangle: z has a rate, history has none.
 template <class T, std::size_t n_internal, std::size_t n_history>

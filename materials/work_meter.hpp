@@ -31,7 +31,8 @@ struct WorkMeter {
 
     /// P : F', W/m3.
     template <class T>
-    static T power(const PointKinematics<T>& point, const PointRates<T>& rates, const PointStress<T>& stress, const T& q) {
+    static T power(const PointKinematics<T>& point, const PointRates<T>& rates, const PointStress<T>& stress,
+                   const T& q) {
         return dot(stress.p_alpha + q * cofactor_alpha(point), rates.alpha) +
                dot(stress.p_beta + q * cofactor_beta(point), rates.beta);
     }

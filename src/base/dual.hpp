@@ -46,9 +46,7 @@ struct Dual {
     // Constants carry no derivatives: scaling by one costs N products, not 2 N.
     friend Dual operator*(double s, const Dual& a) { return chain(V(s) * a.value, V(s), a); }
     friend Dual operator*(const Dual& a, double s) { return s * a; }
-    friend Dual operator*(const V& s, const Dual& a)
-        requires(!std::is_same_v<V, double>)
-    {
+    friend Dual operator*(const V& s, const Dual& a) requires(!std::is_same_v<V, double>) {
         return chain(s * a.value, s, a);
     }
     friend Dual operator/(const Dual& a, const Dual& b) {

@@ -1,8 +1,8 @@
 #pragma once
 // Ahead of a wave front velocities decay through the denormal numbers, which processors handle a hundred times slower.
 
-#include <xmmintrin.h>
 #include <pmmintrin.h>
+#include <xmmintrin.h>
 
 namespace gneiss {
 

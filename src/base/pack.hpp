@@ -18,7 +18,8 @@ inline constexpr std::size_t pack_alignment = Pack::arch_type::alignment() < 16 
 /// n rounded up to whole packs.
 constexpr std::size_t padded(std::size_t n) { return (n + pack_width - 1) / pack_width * pack_width; }
 
-/// Where a pair stands: by its number, or by its distance in bytes from the first pair. Bytes save a shift for every pair.
+/// Where a pair stands: by its number, or by its distance in bytes from the first pair. Bytes save a shift for every
+/// pair.
 struct PairNumber {
     std::int32_t value;
 };

@@ -24,7 +24,8 @@ void parallel_ranges(std::size_t n, Body body) {
 template <class Range>
 double ordered_sum(std::size_t n, std::vector<double>& partial, Range range) {
     partial.resize((n + parallel_range - 1) / parallel_range);
-    parallel_ranges(n, [&](std::size_t first, std::size_t last) { partial[first / parallel_range] = range(first, last); });
+    parallel_ranges(n,
+                    [&](std::size_t first, std::size_t last) { partial[first / parallel_range] = range(first, last); });
     double sum = 0;
     for (const double part : partial) sum += part;
     return sum;

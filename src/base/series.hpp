@@ -17,7 +17,8 @@
 namespace gneiss {
 namespace series {
 
-/// Below this magnitude a polynomial of this degree has a relative truncation error below 1e-17: (1/64)^9 / 10 for ln1p.
+/// Below this magnitude a polynomial of this degree has a relative truncation error below 1e-17: (1/64)^9 / 10 for
+/// ln1p.
 inline constexpr double limit = 1.0 / 64.0;
 inline constexpr int degree = 9;
 

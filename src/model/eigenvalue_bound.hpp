@@ -7,8 +7,8 @@
 
 namespace gneiss {
 
-/// lambda_max <= (sum lambda^p)^(1/p) = (tr A^p)^(1/p) with p = 2^squarings: at most n^(1/p) too large (2 % for n = 6 and
-/// p = 64), never too small.
+/// lambda_max <= (sum lambda^p)^(1/p) = (tr A^p)^(1/p) with p = 2^squarings: at most n^(1/p) too large (2 % for n = 6
+/// and p = 64), never too small.
 /// @param a  symmetric, row by row, shape (n, n); overwritten
 template <int n>
 Pack largest_eigenvalue_bound(std::array<Pack, n * n>& a, int squarings = 6) {

@@ -22,21 +22,21 @@ using PackVector = std::vector<double, xsimd::aligned_allocator<double, pack_ali
 
 /// What a block is made from, beside its law.
 struct BlockGeometry {
-    std::vector<std::int32_t> elements;     ///< numbers in the mesh, ascending
-    bool straight = false;                  ///< composites: every mid-side node is in the middle of its side
-    std::vector<double> axis_angle;         ///< per element of the block: direction of alpha, rad
+    std::vector<std::int32_t> elements;  ///< numbers in the mesh, ascending
+    bool straight = false;               ///< composites: every mid-side node is in the middle of its side
+    std::vector<double> axis_angle;      ///< per element of the block: direction of alpha, rad
     std::vector<std::array<double, 3>> in_situ_stress;  ///< per element, Cauchy xx, yy, xy, Pa; empty: none
-    double thickness = 1;                   ///< m
-    double density = 0;                     ///< kg/m3
+    double thickness = 1;                               ///< m
+    double density = 0;                                 ///< kg/m3
     ViscousStress viscosity;
 };
 
 /// Values at one sub-triangle, for output.
 struct PointFields {
-    std::array<double, 3> cauchy;         ///< xx, yy, xy, Pa
-    std::array<double, 4> munjiza;        ///< v, alpha, beta, psi, Pa; NaN for laws that know none
-    std::array<double, 4> stretch;        ///< s_v (of the composite), s_alpha, s_beta, s_psi
-    std::array<double, 2> alpha, beta;    ///< current axes, length = stretch
+    std::array<double, 3> cauchy;       ///< xx, yy, xy, Pa
+    std::array<double, 4> munjiza;      ///< v, alpha, beta, psi, Pa; NaN for laws that know none
+    std::array<double, 4> stretch;      ///< s_v (of the composite), s_alpha, s_beta, s_psi
+    std::array<double, 2> alpha, beta;  ///< current axes, length = stretch
 };
 
 class ElementBlock {
@@ -67,7 +67,8 @@ public:
     virtual bool viscous() const = 0;
     virtual std::size_t bytes_per_element() const = 0;  ///< read in a force evaluation, nodal data apart
 
-    /// Nodes of the elements, shape (packs, n_nodes, pack_width); lanes behind the last element repeat it, without volume.
+    /// Nodes of the elements, shape (packs, n_nodes, pack_width); lanes behind the last element repeat it, without
+    /// volume.
     virtual std::span<const std::int32_t> nodes() const = 0;
     /// The same as positions among the nodes of a chunk, set by the assembly: 16 bits that stay in the nearest cache.
     virtual std::span<PairBytes> local_nodes() = 0;

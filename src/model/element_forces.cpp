@@ -1,8 +1,8 @@
 #include "model/element_forces.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <omp.h>
+#include <algorithm>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -22,8 +22,7 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
         const ElementBlock& block = *blocks_[b];
         z_offset_.push_back(z_offset_.back() + block.n_internal());
         history_offset_.push_back(history_offset_.back() + block.n_history());
-        const std::size_t step =
-            chunk_size / (static_cast<std::size_t>(block.n_sub_triangles()) * pack_width);
+        const std::size_t step = chunk_size / (static_cast<std::size_t>(block.n_sub_triangles()) * pack_width);
         for (std::size_t first = 0; first < block.n_packs(); first += step)
             chunks_.push_back({b, first, std::min(first + step, block.n_packs())});
     }
@@ -51,7 +50,8 @@ void ElementForces::plan() {
         chunk_nodes_.erase(std::unique(own, chunk_nodes_.end()), chunk_nodes_.end());
         chunk.last_node = chunk_nodes_.size();
         largest_chunk_ = std::max(largest_chunk_, chunk.last_node - chunk.first_node);
-        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i) ++touched[static_cast<std::size_t>(chunk_nodes_[i])];
+        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i)
+            ++touched[static_cast<std::size_t>(chunk_nodes_[i])];
     }
     for (Chunk& chunk : chunks_) {
         const auto begin = chunk_nodes_.begin();
@@ -185,8 +185,9 @@ void ElementForces::add_shared(std::span<double> f) const {
 void ElementForces::throw_inverted(std::size_t block, std::ptrdiff_t local, const ElementBlock::Evaluation& at,
                                    double t) const {
     const auto which = static_cast<std::size_t>(local);
-    throw RecoverableError(fmt::format("element {} is inverted at t = {:.9g} s: {}", 
-                                       labels_[static_cast<std::size_t>(blocks_[block]->element(which))], t, blocks_[block]->describe_inversion(which, at)));
+    throw RecoverableError(fmt::format("element {} is inverted at t = {:.9g} s: {}",
+                                       labels_[static_cast<std::size_t>(blocks_[block]->element(which))], t,
+                                       blocks_[block]->describe_inversion(which, at)));
 }
 
 void ElementForces::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {

@@ -1,10 +1,10 @@
 #pragma once
 // The internal forces of all element blocks, summed over threads in an order that does not depend on their number.
 //
-// Blocks are cut into chunks of consecutive packs. A chunk works on copies of its nodes' displacements and forces, small
-// enough for the nearest cache, and adds its elements in ascending order. A node that only one chunk touches then has its
-// force; of a node that several chunks touch, each chunk leaves its part in a slot, and the slots are added in ascending
-// order of chunk.
+// Blocks are cut into chunks of consecutive packs. A chunk works on copies of its nodes' displacements and forces,
+// small enough for the nearest cache, and adds its elements in ascending order. A node that only one chunk touches then
+// has its force; of a node that several chunks touch, each chunk leaves its part in a slot, and the slots are added in
+// ascending order of chunk.
 
 #include <cstdint>
 #include <memory>
@@ -43,7 +43,7 @@ public:
 
 private:
     struct Chunk {
-        std::size_t block, first, last;        ///< packs [first, last) of a block
+        std::size_t block, first, last;  ///< packs [first, last) of a block
         // its nodes in chunk_nodes_: first those that no other chunk touches, then the shared ones, with slots
         std::size_t first_node = 0, first_shared = 0, last_node = 0;
         std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_
@@ -65,7 +65,7 @@ private:
 
     std::vector<std::int32_t> chunk_nodes_;  ///< of each chunk in the order of its local numbers
     std::vector<std::int32_t> chunk_slots_;  ///< where its part of the force of its shared nodes goes
-    std::size_t largest_chunk_ = 0;  ///< nodes
+    std::size_t largest_chunk_ = 0;          ///< nodes
 
     // nodes that more than one chunk touches, ascending, and where their slots begin; by ascending chunk
     std::vector<std::int32_t> shared_nodes_;

@@ -6,10 +6,10 @@
 namespace gneiss {
 
 struct EnergyLedger {
-    double kinetic = 0;      ///< J, in the measure of the integrator
-    StoredEnergies stored;   ///< J
-    PathEnergies path;       ///< J since t = 0
-    double initial = 0;      ///< kinetic and stored energy at t = 0, J
+    double kinetic = 0;     ///< J, in the measure of the integrator
+    StoredEnergies stored;  ///< J
+    PathEnergies path;      ///< J since t = 0
+    double initial = 0;     ///< kinetic and stored energy at t = 0, J
 
     /// What is there and what has left, minus what was there and what came in, J. Zero for exact integration.
     double left_over() const;

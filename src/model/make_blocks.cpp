@@ -1,10 +1,11 @@
 #include "model/make_blocks.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "base/suggest.hpp"
 #include "mesh/composite.hpp"
 #include "mesh/measure.hpp"
 #include "model/blocks/make_block.hpp"
@@ -30,18 +31,22 @@ std::vector<std::int32_t> material_of_region(const Mesh& mesh, const std::vector
         if (materials[m].regions.empty()) {
             if (rest != no_material)
                 problems.push_back({where(m), fmt::format("names no region, like material {}: only one material can "
-                                                          "take all regions that no other names", rest + 1)});
+                                                          "take all regions that no other names",
+                                                          rest + 1)});
             rest = number;
         }
         for (const std::string& name : materials[m].regions) {
             const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
             if (region == mesh.region_names.end()) {
-                problems.push_back({where(m), fmt::format("the mesh has no region `{}`; it has: {}", name, known)});
+                const std::vector<std::string_view> names(mesh.region_names.begin(), mesh.region_names.end());
+                problems.push_back({where(m), fmt::format("the mesh has no region `{}`; it has: {}{}", name, known,
+                                                          suggestion(name, names))});
                 continue;
             }
             std::int32_t& taken = of_region[static_cast<std::size_t>(region - mesh.region_names.begin())];
             if (taken != no_material)
-                problems.push_back({where(m), fmt::format("region `{}` belongs to material {} already", name, taken + 1)});
+                problems.push_back(
+                    {where(m), fmt::format("region `{}` belongs to material {} already", name, taken + 1)});
             taken = number;
         }
     }
@@ -56,8 +61,8 @@ std::vector<std::int32_t> material_of_region(const Mesh& mesh, const std::vector
 std::vector<std::array<double, 3>> in_situ_stress(const Mesh& mesh, const std::vector<std::int32_t>& elements,
                                                   const std::array<Formula, 3>& formulas) {
     if (std::all_of(formulas.begin(), formulas.end(), [](const Formula& f) { return f.is_zero(); })) return {};
-    const std::array<CompiledFormula, 3> compiled{CompiledFormula(formulas[0], "xy"), CompiledFormula(formulas[1], "xy"),
-                                                  CompiledFormula(formulas[2], "xy")};
+    const std::array<CompiledFormula, 3> compiled{
+        CompiledFormula(formulas[0], "xy"), CompiledFormula(formulas[1], "xy"), CompiledFormula(formulas[2], "xy")};
     const auto centroids = element_centroids(mesh);
     std::vector<std::array<double, 3>> stress;
     for (const std::int32_t e : elements) {
@@ -69,13 +74,15 @@ std::vector<std::array<double, 3>> in_situ_stress(const Mesh& mesh, const std::v
 
 /// True if mid-side nodes stand in the middle of straight sides, to round-off.
 bool is_straight(const Mesh& mesh, std::size_t element) {
-    constexpr double round_off = 1e-15;  // of a coordinate; what a mid-point computed in one way or another may differ by
+    constexpr double round_off =
+        1e-15;  // of a coordinate; what a mid-point computed in one way or another may differ by
     const std::int32_t* nodes = mesh.element(element);
     const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[local])]; };
     for (const auto& [a, middle, b] : composite_sides) {
         const auto from = at(a), between = at(middle), to = at(b);
         const double size = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(to[0]), std::abs(to[1])});
-        if (!(std::hypot(between[0] - 0.5 * (from[0] + to[0]), between[1] - 0.5 * (from[1] + to[1])) <= round_off * size))
+        if (!(std::hypot(between[0] - 0.5 * (from[0] + to[0]), between[1] - 0.5 * (from[1] + to[1])) <=
+              round_off * size))
             return false;
     }
     return true;
@@ -93,8 +100,9 @@ BlockGeometry block_geometry(const Mesh& mesh, const std::vector<std::int32_t>& 
     }
     if (solid.volumetric == Volumetric::centre && mesh.kind == ElementKind::compt &&
         (material.law != LawKind::munjiza || material.stress_map != StressMap::direct))
-        problems.push_back({"", "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
-                                "stress_map = \"direct\""});
+        problems.push_back({"",
+                            "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
+                            "stress_map = \"direct\""});
     geometry.thickness = solid.thickness;
     geometry.density = material.density;
     geometry.viscosity = {material.shear_viscosity, material.bulk_viscosity};
@@ -127,14 +135,16 @@ std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const S
         std::array<std::vector<std::int32_t>, 2> elements;
         for (std::size_t e = 0; e < mesh.n_elements(); ++e)
             if (of_region[static_cast<std::size_t>(mesh.region[e])] == static_cast<std::int32_t>(m))
-                elements[mesh.kind == ElementKind::compt && is_straight(mesh, e)].push_back(static_cast<std::int32_t>(e));
+                elements[mesh.kind == ElementKind::compt && is_straight(mesh, e)].push_back(
+                    static_cast<std::int32_t>(e));
         for (const bool straight : {false, true}) {
             if (elements[straight].empty()) continue;
             std::vector<Problem> own;
             BlockGeometry geometry = block_geometry(mesh, elements[straight], solid, material, own);
             geometry.straight = straight;
             for (const Problem& problem : own) {
-                const Problem here{where(m), problem.where.empty() ? problem.message : problem.where + ": " + problem.message};
+                const Problem here{where(m),
+                                   problem.where.empty() ? problem.message : problem.where + ": " + problem.message};
                 const bool known = std::any_of(problems.begin(), problems.end(),
                                                [&](const Problem& p) { return p.message == here.message; });
                 if (!known) problems.push_back(here);

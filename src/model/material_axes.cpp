@@ -1,8 +1,8 @@
 #include "model/material_axes.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "base/vec2.hpp"
@@ -21,8 +21,7 @@ double length(const Vec2<double>& v) { return std::hypot(v.x, v.y); }
 /// A direction without sense, as the unit vector of twice its angle.
 Vec2<double> doubled(const Vec2<double>& direction) {
     const double squared = dot(direction, direction);
-    return {(direction.x * direction.x - direction.y * direction.y) / squared,
-            2 * direction.x * direction.y / squared};
+    return {(direction.x * direction.x - direction.y * direction.y) / squared, 2 * direction.x * direction.y / squared};
 }
 
 struct Foot {

@@ -18,9 +18,9 @@ public:
     explicit Bedding(std::vector<std::vector<std::array<double, 2>>> lines) : lines_(std::move(lines)) {}
 
     /// Direction of alpha at a point, rad. Along a line the direction turns linearly from the middle of one segment to
-    /// the middle of the next. Between the nearest line (distance d1) and the nearest one on the other side of the point
-    /// (d2), the weights are d2/(d1 + d2) and d1/(d1 + d2); beyond the outermost line its own direction holds. An axis has
-    /// no sense: directions are averaged with doubled angles, so that a line may be drawn from either end.
+    /// the middle of the next. Between the nearest line (distance d1) and the nearest one on the other side of the
+    /// point (d2), the weights are d2/(d1 + d2) and d1/(d1 + d2); beyond the outermost line its own direction holds. An
+    /// axis has no sense: directions are averaged with doubled angles, so that a line may be drawn from either end.
     double angle(const std::array<double, 2>& point) const;
 
 private:

@@ -14,17 +14,17 @@ namespace gneiss {
 
 /// A number, or an expression that muParser evaluates. Which variables it may use is stated at each member.
 struct Formula {
-    std::string text = "0";            ///< the expression; of a plain number its shortest exact decimal form
+    std::string text = "0";                ///< the expression; of a plain number its shortest exact decimal form
     std::optional<double> constant = 0.0;  ///< set when the user gave a plain number
 
     Formula() = default;
-    Formula(double value);            // NOLINT: numbers convert on purpose
+    Formula(double value);  // NOLINT: numbers convert on purpose
     Formula(std::string expression) : text(std::move(expression)), constant(std::nullopt) {}
     bool is_zero() const { return constant && *constant == 0.0; }
 };
 
 enum class Plane { stress, strain };
-enum class Volumetric { mean, centre };  ///< where COMPT takes its volumetric stretch, FORMULATION 2
+enum class Volumetric { mean, centre };      ///< where COMPT takes its volumetric stretch, FORMULATION 2
 enum class StressMap { conjugate, direct };  ///< FORMULATION 3
 enum class LawKind { munjiza, neo_hookean };
 enum class Form { hyper, hypo };
@@ -32,9 +32,9 @@ enum class Form { hyper, hypo };
 // ---- solid and materials --------------------------------------------------------------------------------------------
 
 struct SolidOptions {
-    bool compt = true;                       ///< false: CST on the same nodes
+    bool compt = true;  ///< false: CST on the same nodes
     Plane plane = Plane::strain;
-    double thickness = 1;                    ///< m, > 0
+    double thickness = 1;  ///< m, > 0
     Volumetric volumetric = Volumetric::mean;
 };
 
@@ -42,17 +42,17 @@ struct SolidOptions {
 struct AxesOptions {
     enum class Kind { angle, bedding, data };
     Kind kind = Kind::angle;
-    Formula angle;                           ///< rad from x; may use x, y (m): element centroid
+    Formula angle;                                            ///< rad from x; may use x, y (m): element centroid
     std::vector<std::vector<std::array<double, 2>>> bedding;  ///< polylines, m, at least 2 points each
-    std::string data;                        ///< name of per-element data of the mesh file: angle in rad
+    std::string data;  ///< name of per-element data of the mesh file: angle in rad
 };
 
 struct MaterialOptions {
-    std::vector<std::string> regions;        ///< empty: every region that no other material names
+    std::vector<std::string> regions;  ///< empty: every region that no other material names
     LawKind law = LawKind::munjiza;
     Form form = Form::hyper;
     StressMap stress_map = StressMap::conjugate;
-    double density = 0;                      ///< kg/m3, > 0, no default in a deck
+    double density = 0;  ///< kg/m3, > 0, no default in a deck
 
     /// Munjiza constants; engineering constants have been turned into them by (15)-(18).
     MunjizaConstants constants;
@@ -61,8 +61,10 @@ struct MaterialOptions {
     AxesOptions axes;
 
     /// Stiffening under confinement, hypo only: M = M0 (1 + k <p>/p_ref)^n  [FORMULATION 4].
-    struct Stiffening { double k = 0, p_ref = 1, n = 0; } stiffening;  ///< k >= 0, p_ref > 0 Pa, n in [0, 1]
-    std::array<Formula, 3> in_situ_stress;   ///< Cauchy xx, yy, xy, Pa, tension positive; may use x, y; hypo only
+    struct Stiffening {
+        double k = 0, p_ref = 1, n = 0;
+    } stiffening;                           ///< k >= 0, p_ref > 0 Pa, n in [0, 1]
+    std::array<Formula, 3> in_situ_stress;  ///< Cauchy xx, yy, xy, Pa, tension positive; may use x, y; hypo only
     double shear_viscosity = 0, bulk_viscosity = 0;  ///< Pa s, >= 0
 };
 
@@ -72,59 +74,59 @@ struct MaterialOptions {
 struct AmplitudeOptions {
     enum class Kind { constant, heaviside, ramp, table, expression };
     Kind kind = Kind::constant;
-    double start = 0;                        ///< heaviside: switched on here, s; ramp: leaves 0 here
-    double end = 0;                          ///< ramp: reaches 1 here, s, > start
-    std::vector<double> times, values;       ///< table: times ascending, s, two equal times make a jump; held outside
-    std::string expression;                  ///< may use t (s), x, y (m)
+    double start = 0;                   ///< heaviside: switched on here, s; ramp: leaves 0 here
+    double end = 0;                     ///< ramp: reaches 1 here, s, > start
+    std::vector<double> times, values;  ///< table: times ascending, s, two equal times make a jump; held outside
+    std::string expression;             ///< may use t (s), x, y (m)
 };
 
 struct LoadOptions {
     enum class Kind { nodal_force, traction, pressure, body_force };
     Kind kind = Kind::traction;
-    std::string on;                          ///< name of nodes, of a boundary, or of a region; empty for body_force: all
-    std::array<Formula, 2> value;            ///< nodal force N, traction Pa, body force N/m3: x and y components;
-                                             ///< pressure: the first, Pa, > 0 pushes onto the solid. May use x, y.
+    std::string on;                ///< name of nodes, of a boundary, or of a region; empty for body_force: all
+    std::array<Formula, 2> value;  ///< nodal force N, traction Pa, body force N/m3: x and y components;
+                                   ///< pressure: the first, Pa, > 0 pushes onto the solid. May use x, y.
     AmplitudeOptions amplitude;
 };
 
 struct BoundaryOptions {
     enum class Kind { displacement, velocity, absorbing };
-    Kind kind = Kind::displacement;          ///< `fixed` in a deck is displacement 0 in both components
-    std::string on;                          ///< name of a boundary or of nodes; absorbing: of a boundary
+    Kind kind = Kind::displacement;               ///< `fixed` in a deck is displacement 0 in both components
+    std::string on;                               ///< name of a boundary or of nodes; absorbing: of a boundary
     std::array<std::optional<Formula>, 2> value;  ///< m or m/s; unset: this component is free. May use x, y.
     AmplitudeOptions amplitude;
 };
 
 struct InitialOptions {
-    std::string on;                          ///< region or nodes; empty: everything
-    std::array<Formula, 2> velocity;         ///< m/s; may use x, y
+    std::string on;                   ///< region or nodes; empty: everything
+    std::array<Formula, 2> velocity;  ///< m/s; may use x, y
 };
 
 // ---- time, run, output ----------------------------------------------------------------------------------------------
 
 struct IntegratorOptions {
     std::string type = "central_difference";
-    double safety = 0.8;                     ///< factor on the critical step, (0, 1]
-    double dt = 0;                           ///< fixed step, s; 0: from the critical step
-    bool lanczos = false;                    ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
+    double safety = 0.8;   ///< factor on the critical step, (0, 1]
+    double dt = 0;         ///< fixed step, s; 0: from the critical step
+    bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
 };
 
 struct RunOptions {
-    double t_end = 0;                        ///< s, > 0
-    double checkpoint = 0;                   ///< interval of simulated time between checkpoints, s; 0: only at the end
-    double mass_damping = 0;                 ///< C = c M, 1/s, >= 0
+    double t_end = 0;         ///< s, > 0
+    double checkpoint = 0;    ///< interval of simulated time between checkpoints, s; 0: only at the end
+    double mass_damping = 0;  ///< C = c M, 1/s, >= 0
 };
 
 struct ProbeOptions {
     std::string name;
-    std::array<double, 2> at{0, 0};          ///< reference position, m
+    std::array<double, 2> at{0, 0};              ///< reference position, m
     std::optional<std::array<double, 2>> about;  ///< centre for radial components, m
 };
 
 struct OutputOptions {
-    double fields = 0;                       ///< interval, s; 0: only the last state
-    std::vector<double> field_times;         ///< further times, s, at which the fields are written
-    double history = 0;                      ///< interval, s; 0: 1000 rows over the run
+    double fields = 0;                ///< interval, s; 0: only the last state
+    std::vector<double> field_times;  ///< further times, s, at which the fields are written
+    double history = 0;               ///< interval, s; 0: 1000 rows over the run
     std::vector<ProbeOptions> probes;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
 // The block of one element, one sampling of the volume and one law. Included only by the files that instantiate it.
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "elements/triangle_kernel.hpp"
 #include "model/eigenvalue_bound.hpp"
@@ -32,7 +32,8 @@ public:
 
     void initial_memory(double* z, double* history) const override;
     void add_mass(std::span<double> mass) const override;
-    std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at, const LocalNodes& local) const override;
+    std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
+                             const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     [[gnu::flatten]] Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
@@ -56,12 +57,15 @@ private:
     using Memory = std::array<typename Law::template Memory<T>, Element::n_sub>;
     using PackGeometry = TriangleGeometry<Element, Pack>;
 
-    // ---- loads and stores of one pack; the scalar twins pick one lane ------------------------------------------------
+    // ---- loads and stores of one pack; the scalar twins pick one lane
+    // ------------------------------------------------
     PackGeometry geometry(std::size_t pack) const;
     TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
     template <class Index>
     static Nodal<Pack> gather(const double* pairs, const Index* index);
-    Nodal<Pack> gather(const double* pairs, std::size_t pack) const { return gather(pairs, reinterpret_cast<const PairNumber*>(nodes_.data() + pack * index_stride)); }
+    Nodal<Pack> gather(const double* pairs, std::size_t pack) const {
+        return gather(pairs, reinterpret_cast<const PairNumber*>(nodes_.data() + pack * index_stride));
+    }
     Nodal<double> gather_one(const double* pairs, std::size_t local) const;
     /// What a sub-triangle remembers at the start: the stress in situ, on the axes.
     typename Law::template Memory<double> memory_at_rest(std::size_t local) const;
@@ -71,15 +75,16 @@ private:
 
     /// Flattened: everything is inlined, so that a pack stays in registers from the gather to the scatter.
     template <bool given, bool update, bool viscous>
-    [[gnu::flatten]] std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at, const LocalNodes& local) const;
+    [[gnu::flatten]] std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
+                                                    const LocalNodes& local) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack& smallest) const;
     /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
     Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
 
     BlockGeometry info_;
     Law law_;
-    PackVector geometry_;                ///< (packs, fields, width): axis, sub-triangles, inverse volume
-    std::vector<std::int32_t> nodes_;    ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
+    PackVector geometry_;              ///< (packs, fields, width): axis, sub-triangles, inverse volume
+    std::vector<std::int32_t> nodes_;  ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
     std::vector<PairBytes> local_nodes_;
 };
 
@@ -152,7 +157,8 @@ void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* hi
             const auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
             const std::size_t pack = slot / pack_width, lane = slot % pack_width;
             for (std::size_t s = 0; s < Element::n_sub; ++s) {
-                const auto updated = law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
+                const auto updated =
+                    law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
                 for (std::size_t k = 0; k < Law::n_internal; ++k)
                     z[pack * z_stride + (s * Law::n_internal + k) * pack_width + lane] = updated.z[k];
                 for (std::size_t k = 0; k < Law::n_history; ++k)
@@ -177,7 +183,8 @@ void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) con
     }
 }
 
-// ---- packs -----------------------------------------------------------------------------------------------------------
+// ---- packs
+// -----------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
 auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
@@ -275,7 +282,8 @@ void TriangleBlock<Element, sampling, Law>::store_memory(const Memory<Pack>& mem
         for (std::size_t k = 0; k < Law::n_internal; ++k)
             memory[s].z[k].store_unaligned(z + pack * z_stride + (s * Law::n_internal + k) * pack_width);
         for (std::size_t k = 0; k < Law::n_history; ++k)
-            memory[s].history[k].store_unaligned(history + pack * history_stride + (s * Law::n_history + k) * pack_width);
+            memory[s].history[k].store_unaligned(history + pack * history_stride +
+                                                 (s * Law::n_history + k) * pack_width);
     }
 }
 
@@ -284,16 +292,19 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t 
     std::array<double, pack_width> values;
     smallest.store_unaligned(values.data());
     for (std::size_t lane = 0; lane < pack_width; ++lane)
-        if (!(values[lane] > 0)) return static_cast<std::ptrdiff_t>(std::min(pack * pack_width + lane, n_elements() - 1));
+        if (!(values[lane] > 0))
+            return static_cast<std::ptrdiff_t>(std::min(pack * pack_width + lane, n_elements() - 1));
     return none;
 }
 
-// ---- forces ----------------------------------------------------------------------------------------------------------
+// ---- forces
+// ----------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
 template <bool given, bool update, bool viscous>
 std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
-                                                                      const Evaluation& at, const LocalNodes& nodal) const {
+                                                                      const Evaluation& at,
+                                                                      const LocalNodes& nodal) const {
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
         const PairBytes* index = local_nodes_.data() + pack * index_stride;
@@ -356,7 +367,8 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
     }
 }
 
-// ---- energies and bounds -----------------------------------------------------------------------------------------------
+// ---- energies and bounds
+// -----------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
 auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const
@@ -371,8 +383,7 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
                 stored += g.of(s).volume * law_.energy_density(kinematics.point[s], volume);
         } else {
             const Memory<Pack> memory = load_memory(at, pack);
-            for (int s = 0; s < Element::n_sub; ++s)
-                stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
+            for (int s = 0; s < Element::n_sub; ++s) stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
         }
         if (viscous() && at.v != nullptr) {
             const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
@@ -404,8 +415,8 @@ Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeomet
 }
 
 template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const
-    -> Rates {
+auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last,
+                                                          const Evaluation& at) const -> Rates {
     using D = Dual<n_dof, Pack>;
     const auto independent = [](const Nodal<Pack>& values) {
         Nodal<D> duals;
@@ -440,7 +451,8 @@ auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std
     return {largest(omega_squared), largest(damping)};
 }
 
-// ---- output ------------------------------------------------------------------------------------------------------------
+// ---- output
+// ------------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
 void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, const Evaluation& at,

@@ -20,10 +20,10 @@ enum class StartReason {
 
 /// What one accepted step was.
 struct StepReport {
-    double t = 0;                 ///< time reached, s
-    double dt = 0;                ///< s
-    std::size_t n_rejected = 0;   ///< trials thrown away before this one
-    std::size_t n_force = 0;      ///< force evaluations
+    double t = 0;                ///< time reached, s
+    double dt = 0;               ///< s
+    std::size_t n_rejected = 0;  ///< trials thrown away before this one
+    std::size_t n_force = 0;     ///< force evaluations
 };
 
 /// An integrator's own memory, by name: saved in checkpoints beside the state.

@@ -17,7 +17,8 @@ public:
 
     virtual ~Tangent() = default;
     virtual bool symmetric() const = 0;
-    /// Pattern, fixed while the topology stands: row starts, shape (n_dof + 1), and ascending columns, shape (n_nonzero).
+    /// Pattern, fixed while the topology stands: row starts, shape (n_dof + 1), and ascending columns, shape
+    /// (n_nonzero).
     virtual std::span<const std::int64_t> row_starts() const = 0;
     virtual std::span<const std::int64_t> columns() const = 0;
     /// @param[out] values  overwritten, shape (n_nonzero)

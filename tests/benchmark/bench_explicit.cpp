@@ -1,5 +1,6 @@
 // Time per element of one complete explicit step: element forces, assembly, node update, energy ledger of the loads.
-// Beside our elements stands the textbook loop of older codes (textbook_cst.hpp), in the same binary and on the same mesh.
+// Beside our elements stands the textbook loop of older codes (textbook_cst.hpp), in the same binary and on the same
+// mesh.
 //
 // Counters: ns per element and step, bytes per element that a force evaluation streams, and the fractions of memory
 // bandwidth and multiply-add rate, as measured on this machine when the program starts.
@@ -17,8 +18,8 @@
 #include "benchmark/textbook_cst.hpp"
 #include "integrators/central_difference.hpp"
 #include "mesh/make_mesh.hpp"
-#include "model/make_blocks.hpp"
 #include "mesh/measure.hpp"
+#include "model/make_blocks.hpp"
 #include "model/solid_system.hpp"
 
 namespace gneiss::benchmark {

@@ -47,7 +47,8 @@ double counted_flops() {
     std::array<Vec2<double>, Element::n_nodes> x{};
     constexpr std::array<Vec2<double>, 6> corners_first{{{0, 0}, {1, 0}, {0, 1}, {0.5, 0.5}, {0, 0.5}, {0.5, 0}}};
     constexpr std::array<int, 6> around{0, 5, 1, 3, 2, 4};
-    for (int node = 0; node < Element::n_nodes; ++node) x[node] = corners_first[Element::n_nodes == 3 ? node : around[node]];
+    for (int node = 0; node < Element::n_nodes; ++node)
+        x[node] = corners_first[Element::n_nodes == 3 ? node : around[node]];
     const auto plain_geometry = triangle_geometry<Element>(x, {1, 0}, 1);
     TriangleGeometry<Element, Counted> geometry{};
     geometry.axis = {plain_geometry.axis.x, plain_geometry.axis.y};
@@ -61,8 +62,8 @@ double counted_flops() {
     std::array<Vec2<Counted>, Element::n_nodes> f{};
     Counted::operations = 0;
     const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
-    const auto stress = triangle_stress<Element, false>(
-        law, kinematics, geometry, std::array<PointMemory<Counted, 0, 0>, Element::n_sub>{});
+    const auto stress = triangle_stress<Element, false>(law, kinematics, geometry,
+                                                        std::array<PointMemory<Counted, 0, 0>, Element::n_sub>{});
     triangle_force<Element, MunjizaHyperelastic<false>>(kinematics, geometry, stress, f);
     return static_cast<double>(Counted::operations + 2 * Element::n_nodes);
 }

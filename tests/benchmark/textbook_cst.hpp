@@ -48,7 +48,8 @@ public:
             const double inverse = 1 / (a0 * d0 - b0 * c0);
             const double i00 = d0 * inverse, i01 = -b0 * inverse, i10 = -c0 * inverse, i11 = a0 * inverse;
             // deformation gradient, left Cauchy-Green strain
-            const double f00 = a * i00 + b * i10, f01 = a * i01 + b * i11, f10 = c * i00 + d * i10, f11 = c * i01 + d * i11;
+            const double f00 = a * i00 + b * i10, f01 = a * i01 + b * i11, f10 = c * i00 + d * i10,
+                         f11 = c * i01 + d * i11;
             const double jacobian = f00 * f11 - f01 * f10;
             const double e00 = 0.5 * (f00 * f00 + f01 * f01 - 1), e11 = 0.5 * (f10 * f10 + f11 * f11 - 1),
                          e01 = 0.5 * (f00 * f10 + f01 * f11);

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "base/suggest.hpp"
 #include "io/deck/choices.hpp"
 #include "io/deck/schema.hpp"
-#include "base/suggest.hpp"
 
 namespace gneiss::deck {
 

@@ -4,8 +4,9 @@
 
 namespace gneiss {
 
-std::unique_ptr<ElementBlock> make_munjiza_hyperelastic_block(const Mesh& mesh, BlockGeometry geometry, const SolidOptions& solid,
-                                            const MaterialOptions& material) {
+std::unique_ptr<ElementBlock> make_munjiza_hyperelastic_block(const Mesh& mesh, BlockGeometry geometry,
+                                                              const SolidOptions& solid,
+                                                              const MaterialOptions& material) {
     return make_triangle_block(mesh, std::move(geometry), solid, MunjizaHyperelastic<false>{material.constants});
 }
 

@@ -18,8 +18,10 @@ template <class Index>
 class Pairs : public testing::Test {
 public:
     static Index at(std::int32_t node) {
-        if constexpr (std::is_same_v<Index, PairNumber>) return {node};
-        else return {static_cast<std::uint16_t>(node * static_cast<std::int32_t>(bytes_per_pair))};
+        if constexpr (std::is_same_v<Index, PairNumber>)
+            return {node};
+        else
+            return {static_cast<std::uint16_t>(node * static_cast<std::int32_t>(bytes_per_pair))};
     }
     static std::array<Index, pack_width> indices(const std::array<std::int32_t, pack_width>& nodes) {
         std::array<Index, pack_width> index;
