@@ -24,6 +24,8 @@ void CentralDifference::Options::validate() const {
         problems.push_back({"integrator.safety", fmt::format("given {}, must be in (0, 1]", safety)});
     if (!(dt >= 0 && std::isfinite(dt)))
         problems.push_back({"integrator.dt", fmt::format("given {} s, must be >= 0 s", dt)});
+    if (!(bound_interval >= 0))
+        problems.push_back({"integrator.bound_interval", fmt::format("given {}, must be >= 0", bound_interval)});
     if (!problems.empty()) throw InputError(problems);
 }
 
@@ -69,7 +71,9 @@ void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& 
         throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}",
                                            state.t, bound.omega, bound.damping_rate));
     const double change = std::abs(critical_ - before) / critical_;
-    if (bound_interval_ == 0)
+    if (options_.bound_interval > 0)
+        bound_interval_ = options_.bound_interval;
+    else if (bound_interval_ == 0)
         bound_interval_ = first_interval;
     else if (change < still)
         bound_interval_ = std::min(2 * bound_interval_, longest_interval);
@@ -79,14 +83,21 @@ void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& 
 }
 
 void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
-    if (why != StartReason::reinitialise) {
+    const bool anew = why != StartReason::reinitialise;
+    if (anew) {
         allocate(system);
         bound_interval_ = 0;
+        evaluate_bound(system, state);
+        if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+    } else if (options_.bound_interval == 0) {
+        // what has been switched on may deform the solid soon; the count of steps goes on, so that frequent switches
+        // do not put the next look off for ever
+        bound_interval_ = std::min(bound_interval_, first_interval);
     }
-    evaluate_bound(system, state);
-    if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+    const double measure_before = anew ? 0 : acceleration_measure(system);
 
     hold_constraints(system, state, why);
+    if (anew && !system.constraints().empty()) evaluate_bound(system, state);  // they may have strained the solid
     if (why == StartReason::fresh && !next_.z.empty()) {
         // prescribed displacements may have strained the solid
         system.force_and_update(state, Trial::of(state), a_, next_.z, next_.history);
@@ -109,6 +120,17 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
         a_[constraints[k].dof] = 0;
         reactions_[k] = -net_[k];
     }
+    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched
+    if (!anew) state.path.external_work -= acceleration_measure(system) - measure_before;
+}
+
+double CentralDifference::acceleration_measure(const SemiDiscrete& system) const {
+    const auto mass = system.lumped_mass();
+    return 0.125 * dt_ * dt_ * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
+               double sum = 0;
+               for (std::size_t i = first; i < last; ++i) sum += mass[i] * a_[i] * a_[i];
+               return sum;
+           });
 }
 
 void CentralDifference::hold_constraints(const SemiDiscrete& system, State& state, StartReason why) {
@@ -285,13 +307,12 @@ void CentralDifference::subtract_damping(const SemiDiscrete& system, std::span<c
 
 double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State& state) const {
     const auto mass = system.lumped_mass();
-    const double quarter = 0.25 * dt_ * dt_;
-    return 0.5 * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
-               double sum = 0;
-               for (std::size_t i = first; i < last; ++i)
-                   sum += mass[i] * (state.v[i] * state.v[i] - quarter * a_[i] * a_[i]);
-               return sum;
-           });
+    const double synchronised = 0.5 * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
+                                    double sum = 0;
+                                    for (std::size_t k = first; k < last; ++k) sum += mass[k] * state.v[k] * state.v[k];
+                                    return sum;
+                                });
+    return synchronised - acceleration_measure(system);
 }
 
 IntegratorMemory CentralDifference::save() const {

@@ -22,6 +22,8 @@ public:
         double dt = 0;         ///< fixed step, s; 0: from the critical step
         bool lanczos = false;  ///< bound omega by a Lanczos estimate of the assembled pencil, closer than the elements'
 
+        int bound_interval = 0;  ///< steps between two looks at the bound; 0: adapted to how fast it changes
+
         /// @throws InputError
         void validate() const;
     };
@@ -49,6 +51,8 @@ private:
     void allocate(const SemiDiscrete& system);
     /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
     void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
+    /// dt^2/8 a . M a, J: what v(n) . M v(n)/2 exceeds v(n-1/2) . M v(n+1/2)/2 by.
+    double acceleration_measure(const SemiDiscrete& system) const;
     double choose_step(double remaining) const;
     void kick_and_drift(const SemiDiscrete& system, const State& state, double dt);
     void prescribe(const SemiDiscrete& system, const State& state, double dt);

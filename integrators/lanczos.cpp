@@ -29,7 +29,7 @@ public:
     }
 
     Vector random() const {
-        // any start with a share in the highest modes does: signs that alternate without a period
+        // any start with a share in the highest modes does
         Vector x(scale_.size());
         std::uint64_t seed = 1;
         for (double& value : x) {

@@ -12,12 +12,18 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// The same mesh in the same numbering.
-std::string mesh_fingerprint(const Mesh& mesh) {
+/// The same mesh in the same numbering, cut into the same blocks of the same packs: what z and history are ordered by.
+std::string layout_fingerprint(const Case& built) {
     const auto bytes = [](const auto& values) {
         return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
     };
-    return fmt::format("{:016x}", fingerprint(bytes(mesh.connectivity), fingerprint(bytes(mesh.nodes))));
+    std::vector<std::uint64_t> blocks{pack_width};
+    for (const auto& block : built.system->elements().blocks())
+        blocks.insert(blocks.end(), {block->n_elements(), block->n_internal(), block->n_history()});
+    const Mesh& mesh = built.mesh;
+    std::uint64_t sum = fingerprint(bytes(mesh.connectivity), fingerprint(bytes(mesh.nodes)));
+    sum = fingerprint(bytes(blocks), fingerprint(bytes(mesh.region), sum));
+    return fmt::format("{:016x}", sum);
 }
 
 /// Members of PathEnergies in a fixed order.
@@ -31,7 +37,7 @@ auto members(PathEnergies& path) {
 void save_checkpoint(const std::filesystem::path& path, const std::string& deck_fingerprint, const Case& built,
                      const State& state, const RunProgress& progress) {
     Checkpoint checkpoint(deck_fingerprint);
-    checkpoint.set("mesh", mesh_fingerprint(built.mesh));
+    checkpoint.set("layout", layout_fingerprint(built));
     checkpoint.set("step", static_cast<std::int64_t>(progress.step));
     checkpoint.set("initial_energy", progress.initial_energy);
     checkpoint.set("state.t", state.t);
@@ -51,8 +57,9 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
 
 std::string load_checkpoint(const std::filesystem::path& path, const Case& built, State& state, RunProgress& progress) {
     const Checkpoint checkpoint = Checkpoint::load(path);
-    if (checkpoint.get<std::string>("mesh") != mesh_fingerprint(built.mesh))
-        throw InputError(path.string(), "was written for another mesh than the deck gives");
+    if (checkpoint.get<std::string>("layout") != layout_fingerprint(built))
+        throw InputError(path.string(),
+                         "was written for another mesh than the deck gives, or by a program built for other packs");
     if (checkpoint.get<std::string>("integrator") != built.integrator->name())
         throw InputError(path.string(),
                          fmt::format("was written by integrator `{}`, the deck has `{}`",

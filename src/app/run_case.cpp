@@ -55,7 +55,7 @@ private:
     void write_checkpoint();
     void write_summary_file(RunStatus status, const std::string& message = "");
     int end(RunStatus status, const std::string& message, int code);
-    int end_failed(const RecoverableError& error);
+    int end_failed(const std::exception& error);
     ProgressState progress_state() const;
 
     RunArguments arguments_;
@@ -212,14 +212,14 @@ int Run::end(RunStatus status, const std::string& message, int code) {
     return code;
 }
 
-int Run::end_failed(const RecoverableError& error) {
+int Run::end_failed(const std::exception& error) {
     log_->error("{}", error.what());
     if (begun_) {
         // The failed step has left the integrator between two states: let it start from the last good one, so that the
         // energies and the checkpoint are those of this state.
         try {
-            case_.integrator->start(*case_.system, state_, StartReason::reinitialise);
-        } catch (const RecoverableError& again) {
+            case_.integrator->start(*case_.system, state_, StartReason::resize);  // nothing of its memory holds
+        } catch (const std::exception& again) {
             log_->error("{}", again.what());
         }
         if (history_file_->last_time() != state_.t) write_rows(last_dt_);
@@ -242,6 +242,8 @@ int Run::march() {
                    stop_request_.exit_code());
     } catch (const RecoverableError& error) {
         return end_failed(error);
+    } catch (const InputError& error) {
+        return end_failed(error);  // a formula that has no value at this time, say
     } catch (const std::exception& error) {
         // A full disk, say: nothing more may be written, except for why, if that still goes.
         try {

@@ -15,7 +15,7 @@ class Schedule {
 public:
     explicit Schedule(const CaseOptions& options);
 
-    /// Where the step that begins at t has to end at the latest, s; infinite if nothing is planned. See same_instant().
+    /// Where the step that begins at t has to end at the latest, s; infinite if nothing is planned. See reached().
     double next_stop(double t) const;
 
     bool row_due(const StepReport& step) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 #include <algorithm>
+#include <stdexcept>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -53,6 +54,8 @@ void ElementForces::plan() {
         for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i)
             ++touched[static_cast<std::size_t>(chunk_nodes_[i])];
     }
+    if (largest_chunk_ * bytes_per_pair > std::size_t{1} << 16)
+        throw std::logic_error("a chunk has more nodes than 16-bit offsets reach: make chunk_size smaller");
     for (Chunk& chunk : chunks_) {
         const auto begin = chunk_nodes_.begin();
         const auto first = begin + static_cast<std::ptrdiff_t>(chunk.first_node);

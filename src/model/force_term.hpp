@@ -1,5 +1,6 @@
 #pragma once
-// One contribution to f: element blocks, loads, later joints, contact and lumped models. The solid system sums them.
+// One contribution to f beside the elements: loads, later joints, contact and lumped models. The solid system sums
+// them.
 
 #include <span>
 #include <string>

@@ -88,8 +88,36 @@ bool is_straight(const Mesh& mesh, std::size_t element) {
     return true;
 }
 
+/// What a deck has checked already, and a program that fills the options by hand has not.
+void check_ranges(const SolidOptions& solid, const MaterialOptions& material, std::vector<Problem>& problems) {
+    const auto require = [&](bool holds, const char* name, double given, const char* allowed) {
+        if (!holds) problems.push_back({name, fmt::format("given {}, must be {}", given, allowed)});
+    };
+    require(solid.thickness > 0 && std::isfinite(solid.thickness), "thickness", solid.thickness, "> 0 m");
+    require(material.density > 0 && std::isfinite(material.density), "density", material.density, "> 0 kg/m3");
+    require(material.shear_viscosity >= 0, "viscosity.shear", material.shear_viscosity, ">= 0 Pa s");
+    require(material.bulk_viscosity >= 0, "viscosity.bulk", material.bulk_viscosity, ">= 0 Pa s");
+    if (material.law == LawKind::neo_hookean) {
+        require(material.shear_modulus > 0, "constants.mu", material.shear_modulus, "> 0 Pa");
+        require(3 * material.lame_lambda + 2 * material.shear_modulus > 0, "constants.lambda", material.lame_lambda,
+                "> -2/3 mu");
+        return;
+    }
+    if (const std::string why = inadmissibility(material.constants); !why.empty())
+        problems.push_back({"constants", why});
+    const auto& stiffening = material.stiffening;
+    require(stiffening.k >= 0, "stiffening.k", stiffening.k, ">= 0");
+    require(stiffening.p_ref > 0, "stiffening.p_ref", stiffening.p_ref, "> 0 Pa");
+    require(stiffening.n >= 0 && stiffening.n <= 1, "stiffening.n", stiffening.n, "in [0, 1]");
+    const bool stressed = !std::all_of(material.in_situ_stress.begin(), material.in_situ_stress.end(),
+                                       [](const Formula& f) { return f.is_zero(); });
+    if (material.form == Form::hyper && (stressed || (stiffening.k > 0 && stiffening.n > 0)))
+        problems.push_back({"form", "stress in situ and stiffening need form = \"hypo\""});
+}
+
 BlockGeometry block_geometry(const Mesh& mesh, const std::vector<std::int32_t>& elements, const SolidOptions& solid,
                              const MaterialOptions& material, std::vector<Problem>& problems) {
+    check_ranges(solid, material, problems);
     BlockGeometry geometry;
     geometry.elements = elements;
     geometry.axis_angle = axis_angles(mesh, elements, material.axes, problems);

@@ -124,7 +124,7 @@ struct ProbeOptions {
 };
 
 struct OutputOptions {
-    double fields = 0;                ///< interval, s; 0: only the last state
+    double fields = 0;                ///< interval, s; 0: the first and the last state only
     std::vector<double> field_times;  ///< further times, s, at which the fields are written
     double history = 0;               ///< interval, s; 0: 1000 rows over the run
     std::vector<ProbeOptions> probes;

@@ -53,7 +53,7 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
                 integrator.start(system, state, StartReason::resize);
                 break;
         }
-        if (after_step && !after_step(step)) return MarchOutcome::interrupted;
+        if (after_step && !after_step(step) && state.t < t_end) return MarchOutcome::interrupted;
     }
     return MarchOutcome::finished;
 }

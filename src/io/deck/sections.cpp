@@ -188,7 +188,7 @@ const Section<OutputOptions>& output_section() {
         {number("fields", &O::fields,
                 {.unit = "s",
                  .range = at_least(0),
-                 .meaning = "simulated time between fields for ParaView; 0: the last state only"}),
+                 .meaning = "simulated time between fields for ParaView; 0: the first and the last state only"}),
          numbers("field_times", &O::field_times,
                  {.unit = "s", .range = at_least(0), .meaning = "further times at which the fields are written"}),
          number("history", &O::history,
