@@ -7,7 +7,7 @@ from studies.borehole.figures import TITLES, case_of_file, materials_title
 from studies.common import style
 
 HALF_WIDTH = 9.0  # m
-LEVELS = [0.1, 0.2, 0.3, 0.4, 0.5]  # m/s
+LEVELS = [0.1, 0.2, 0.3, 0.4]  # m/s
 SMOOTHING = FILTER_FACTOR * PROBE_RADIUS  # m: the way of the wave in the time of the histories' filter
 
 
@@ -21,7 +21,7 @@ def smoothed_speed(velocity: np.ndarray, axis: np.ndarray) -> np.ndarray:
 
 
 by_axes = {case_of_file(path).axes: path for path in snakemake.input}  # noqa: F821
-figure, panels = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.5), sharey=True)
+figure, panels = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.2), sharey=True)
 for letter, panel, (unturned, turned) in zip("ab", panels, ROTATION_PAIRS):
     for axes, key, look in ((unturned, "velocity", {"colors": style.RED, "linewidths": 1.6}),
                             (turned, "turned_back", {"colors": "black", "linewidths": 0.7, "linestyles": "--"})):
