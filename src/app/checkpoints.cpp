@@ -58,8 +58,9 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
 std::string load_checkpoint(const std::filesystem::path& path, const Case& built, State& state, RunProgress& progress) {
     const Checkpoint checkpoint = Checkpoint::load(path);
     if (checkpoint.get<std::string>("layout") != layout_fingerprint(built))
-        throw InputError(path.string(),
-                         "was written for another mesh than the deck gives, or by a program built for other packs");
+        throw InputError(
+            path.string(),
+            "was written for another mesh or other laws than the deck gives, or by a program built for other packs");
     if (checkpoint.get<std::string>("integrator") != built.integrator->name())
         throw InputError(path.string(),
                          fmt::format("was written by integrator `{}`, the deck has `{}`",

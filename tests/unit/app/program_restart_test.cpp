@@ -107,7 +107,8 @@ TEST_F(ProgramRestart, WhatDoesNotFit_IsRefused) {
     };
     EXPECT_THAT(error_of({"--set", "run.t_end=1e-3"}),
                 HasSubstr("a/checkpoint.h5: stands at t = 0.001 s, the deck ends at 0.001 s: nothing is left to run"));
-    EXPECT_THAT(error_of({"--set", "mesh.width=5.0"}), HasSubstr("was written for another mesh than the deck gives"));
+    EXPECT_THAT(error_of({"--set", "mesh.width=5.0"}),
+                HasSubstr("was written for another mesh or other laws than the deck gives"));
     EXPECT_THAT(error_of({"--set", "solid.element=cst"}), HasSubstr("another mesh"));
     EXPECT_THAT(error_of({"--set", "material.0.form=hyper", "material.0.in_situ_stress=[0, 0, 0]"}),
                 Not(IsEmpty()));  // refused by the deck: in-situ stress is for hypo only

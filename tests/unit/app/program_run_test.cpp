@@ -216,6 +216,18 @@ TEST_F(ProgramRun, InvertedElement_FailsWithTheLastGoodState) {
               3);
 }
 
+TEST_F(ProgramRun, FormulaWithoutAValue_FailsWithTheLastGoodState) {
+    put("case.toml", small_deck);
+    const std::string amplitude = "load.0.amplitude={type='expression',expression='sqrt(3e-4-t)'}";
+    EXPECT_EQ(gneiss({"run", "case.toml", "--set", amplitude, "--threads", "1"}).code, 3);
+    const auto summary = this->summary("results/case");
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_THAT(summary["message"].get<std::string>(), HasSubstr("sqrt(3e-4-t)"));
+    EXPECT_GT(summary["time"]["t_s"].get<double>(), 0.0);
+    EXPECT_LE(summary["time"]["t_s"].get<double>(), 3e-4);
+    EXPECT_TRUE(exists("results/case/checkpoint.h5"));
+}
+
 TEST_F(ProgramRun, FixedStepAboveTheCriticalOne_FailsAtOnce) {
     put("case.toml", small_deck);
     const Ended ended = gneiss({"run", "case.toml", "--set", "integrator.dt=1e-3"});

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "base/errors.hpp"
 #include "mesh/measure.hpp"
 #include "support/one_thread.hpp"
@@ -116,6 +118,27 @@ TEST(MakeBlocks, RegionWithoutMaterial_IsReported) {
                                           "[[material]]: no material for region `clay`"));
 }
 
+TEST(MakeBlocks, ValuesOutOfRange_AreReportedAtOnce) {
+    SolidOptions solid;
+    solid.thickness = 0;
+    MaterialOptions material = of({});
+    material.density = -1;
+    material.shear_viscosity = std::numeric_limits<double>::quiet_NaN();
+    material.stiffening = {1, 0, 2};
+    EXPECT_THAT(messages({material}, solid),
+                ElementsAre("[[material]] 1: thickness: given 0, must be > 0 m",
+                            "[[material]] 1: density: given -1, must be > 0 kg/m3",
+                            "[[material]] 1: viscosity.shear: given nan, must be >= 0 Pa s",
+                            "[[material]] 1: stiffening.p_ref: given 0, must be > 0 Pa",
+                            "[[material]] 1: stiffening.n: given 2, must be in [0, 1]",
+                            "[[material]] 1: form: stress in situ and stiffening need form = \"hypo\""));
+    material = of({});
+    material.law = LawKind::neo_hookean;
+    material.shear_modulus = 1;
+    material.lame_lambda = -1;
+    EXPECT_THAT(messages({material}), ElementsAre("[[material]] 1: constants.lambda: given -1, must be > -2/3 mu"));
+}
+
 TEST(MakeBlocks, CentreVolume_WithALawThatHasAStoredEnergy_IsReported) {
     SolidOptions solid;
     solid.volumetric = Volumetric::centre;
@@ -125,6 +148,7 @@ TEST(MakeBlocks, CentreVolume_WithALawThatHasAStoredEnergy_IsReported) {
     MaterialOptions material = of({});
     EXPECT_THAT(messages({material}, solid, test::composite_mesh()), ElementsAre(expected));
     material.law = LawKind::neo_hookean;
+    material.shear_modulus = material.lame_lambda = 1e9;
     material.stress_map = StressMap::direct;
     EXPECT_THAT(messages({material}, solid, test::composite_mesh()), ElementsAre(expected));
     material.law = LawKind::munjiza;
