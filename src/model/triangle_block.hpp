@@ -59,6 +59,9 @@ private:
 
     // ---- loads and stores of one pack; the scalar twins pick one lane
     // ------------------------------------------------
+    /// Fields in the order in which the constructor writes them, a pack's width apart.
+    template <class V, class Load>
+    static TriangleGeometry<Element, V> read_geometry(const double* field, Load load);
     PackGeometry geometry(std::size_t pack) const;
     TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
     template <class Index>
@@ -187,14 +190,15 @@ void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) con
 // -----------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
-    const double* field = geometry_.data() + pack * geometry_stride;
-    const auto take = [&field] {
-        const Pack value = Pack::load_aligned(field);
+template <class V, class Load>
+auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* field, Load load)
+    -> TriangleGeometry<Element, V> {
+    const auto take = [&] {
+        const V value = load(field);
         field += pack_width;
         return value;
     };
-    PackGeometry g;
+    TriangleGeometry<Element, V> g;
     g.axis.x = take();
     g.axis.y = take();
     for (auto& sub : g.sub) {
@@ -209,25 +213,15 @@ auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> 
 }
 
 template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
+    return read_geometry<Pack>(geometry_.data() + pack * geometry_stride,
+                               [](const double* field) { return Pack::load_aligned(field); });
+}
+
+template <class Element, Sampling sampling, class Law>
 auto TriangleBlock<Element, sampling, Law>::geometry_of(std::size_t local) const -> TriangleGeometry<Element, double> {
-    const double* field = geometry_.data() + local / pack_width * geometry_stride + local % pack_width;
-    const auto take = [&field] {
-        const double value = *field;
-        field += pack_width;
-        return value;
-    };
-    TriangleGeometry<Element, double> g;
-    g.axis.x = take();
-    g.axis.y = take();
-    for (auto& sub : g.sub) {
-        sub.k_a_alpha = take();
-        sub.k_a_beta = take();
-        sub.k_c_alpha = take();
-        sub.k_c_beta = take();
-        sub.volume = take();
-    }
-    if constexpr (!Element::similar) g.inverse_volume = take();
-    return g;
+    return read_geometry<double>(geometry_.data() + local / pack_width * geometry_stride + local % pack_width,
+                                 [](const double* field) { return *field; });
 }
 
 template <class Element, Sampling sampling, class Law>
