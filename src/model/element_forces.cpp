@@ -113,9 +113,18 @@ ElementBlock::Evaluation ElementForces::evaluation(std::size_t block, const Stat
     return at;
 }
 
+template <class Body>
+void ElementForces::for_each_chunk(Body body) const {
+    const auto n_chunks = static_cast<std::ptrdiff_t>(chunks_.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
+        const auto number = static_cast<std::size_t>(c);
+        body(number, chunks_[number]);
+    }
+}
+
 void ElementForces::force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                           std::span<double> history) const {
-    const auto n_chunks = static_cast<std::ptrdiff_t>(chunks_.size());
     const auto evaluation_of = [&](std::size_t block) {
         ElementBlock::Evaluation at = evaluation(block, accepted, trial);
         if (!z.empty() || !history.empty()) {
@@ -125,11 +134,8 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
         return at;
     };
     prepare_scratch();
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
-        const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-        inverted_[static_cast<std::size_t>(c)] = chunk_force(chunk, evaluation_of(chunk.block), f);
-    }
+    for_each_chunk(
+        [&](std::size_t c, const Chunk& chunk) { inverted_[c] = chunk_force(chunk, evaluation_of(chunk.block), f); });
     for (std::size_t c = 0; c < chunks_.size(); ++c)
         if (inverted_[c] != ElementBlock::none)
             throw_inverted(chunks_[c].block, inverted_[c], evaluation_of(chunks_[c].block), trial.t);
@@ -194,23 +200,16 @@ void ElementForces::throw_inverted(std::size_t block, std::ptrdiff_t local, cons
 }
 
 void ElementForces::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {
-    const auto n_chunks = static_cast<std::ptrdiff_t>(chunks_.size());
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
-        const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    for_each_chunk([&](std::size_t, const Chunk& chunk) {
         blocks_[chunk.block]->internal_rate(chunk.first, chunk.last, evaluation(chunk.block, accepted, trial),
                                             rate.data() + z_offset_[chunk.block]);
-    }
+    });
 }
 
 ElementBlock::Sums ElementForces::energies(const State& accepted, const Trial& trial) const {
-    const auto n_chunks = static_cast<std::ptrdiff_t>(chunks_.size());
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
-        const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-        sums_[static_cast<std::size_t>(c)] =
-            blocks_[chunk.block]->energies(chunk.first, chunk.last, evaluation(chunk.block, accepted, trial));
-    }
+    for_each_chunk([&](std::size_t c, const Chunk& chunk) {
+        sums_[c] = blocks_[chunk.block]->energies(chunk.first, chunk.last, evaluation(chunk.block, accepted, trial));
+    });
     ElementBlock::Sums total;
     for (const auto& sums : sums_) {
         total.stored += sums.stored;
@@ -221,14 +220,11 @@ ElementBlock::Sums ElementForces::energies(const State& accepted, const Trial& t
 }
 
 ElementBlock::Rates ElementForces::largest_rates(const State& accepted) const {
-    const auto n_chunks = static_cast<std::ptrdiff_t>(chunks_.size());
     const Trial at_rest = Trial::of(accepted);
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t c = 0; c < n_chunks; ++c) {
-        const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-        rates_[static_cast<std::size_t>(c)] =
+    for_each_chunk([&](std::size_t c, const Chunk& chunk) {
+        rates_[c] =
             blocks_[chunk.block]->largest_rates(chunk.first, chunk.last, evaluation(chunk.block, accepted, at_rest));
-    }
+    });
     ElementBlock::Rates largest;
     for (const auto& rates : rates_) {
         largest.omega_squared = std::max(largest.omega_squared, rates.omega_squared);

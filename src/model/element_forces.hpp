@@ -50,6 +50,9 @@ private:
     };
 
     void plan();
+    /// body(number, chunk) for every chunk, in parallel.
+    template <class Body>
+    void for_each_chunk(Body body) const;
     std::pair<std::span<const std::int32_t>, std::span<PairBytes>> nodes_of(const Chunk& chunk);
     std::ptrdiff_t chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f) const;
     void prepare_scratch() const;
