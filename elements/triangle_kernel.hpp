@@ -89,14 +89,18 @@ struct TriangleKinematics {
 };
 
 /// [F' alpha, F' beta] or [H alpha, H beta] of sub-triangle s from nodal velocities or displacements.
+/// @param[out] alpha, beta  written component by component: GCC copies whole aggregates of packs by way of the stack
 template <class Element, class T, class V>
-std::array<Vec2<T>, 2> axes_images(const std::array<Vec2<T>, Element::n_nodes>& u,
-                                   const TriangleGeometry<Element, V>& geometry, int s) {
+void axes_images(const std::array<Vec2<T>, Element::n_nodes>& u, const TriangleGeometry<Element, V>& geometry, int s,
+                 Vec2<T>& alpha, Vec2<T>& beta) {
     const auto& [a, b, c] = Element::sub_triangles[s];
     const auto& sub = geometry.of(s);
     const bool is_turned = geometry.is_turned(s);
     const Vec2<T> d_a = is_turned ? u[b] - u[a] : u[a] - u[b], d_c = is_turned ? u[b] - u[c] : u[c] - u[b];
-    return {sub.k_a_alpha * d_a + sub.k_c_alpha * d_c, sub.k_a_beta * d_a + sub.k_c_beta * d_c};
+    alpha.x = sub.k_a_alpha * d_a.x + sub.k_c_alpha * d_c.x;
+    alpha.y = sub.k_a_alpha * d_a.y + sub.k_c_alpha * d_c.y;
+    beta.x = sub.k_a_beta * d_a.x + sub.k_c_beta * d_c.x;
+    beta.y = sub.k_a_beta * d_a.y + sub.k_c_beta * d_c.y;
 }
 
 template <class Element, Sampling sampling, class T, class V>
@@ -107,9 +111,12 @@ TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Ele
     std::array<T, Element::n_sub> change;
 #pragma GCC unroll 4
     for (int s = 0; s < Element::n_sub; ++s) {
-        const auto [h_alpha, h_beta] = axes_images(u, geometry, s);
-        kinematics.point[s] = point_kinematics(axis, h_alpha, h_beta);
-        change[s] = kinematics.point[s].area_strain;
+        PointKinematics<T>& point = kinematics.point[s];
+        point.axis.x = axis.x;
+        point.axis.y = axis.y;
+        axes_images(u, geometry, s, point.h_alpha, point.h_beta);
+        point.area_strain = area_strain(axis, point.h_alpha, point.h_beta);
+        change[s] = point.area_strain;
     }
     if constexpr (sampling == Sampling::mean) {
         kinematics.volume_strain = geometry.mean(change);
@@ -119,16 +126,13 @@ TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Ele
     return kinematics;
 }
 
-/// Smallest det F of the sub-triangles, s_v included: not > 0 means inverted.
+/// Whether s_v and det F of every sub-triangle are positive, of packs lane by lane. NaN is not.
 template <class Element, class T>
-auto smallest_jacobian(const TriangleKinematics<Element, T>& kinematics) {
-    auto smallest = plain(kinematics.volume_strain);
-    for (const auto& point : kinematics.point) {
-        const auto& strain = plain(point.area_strain);
-        smallest = choose(strain < smallest, strain, smallest);
-        smallest = choose(strain == strain, smallest, strain);  // NaN stays
-    }
-    return smallest + 1.0;
+auto is_upright(const TriangleKinematics<Element, T>& kinematics) {
+    auto upright = plain(kinematics.volume_strain) > -1.0;
+    if constexpr (Element::n_sub > 1)
+        for (const auto& point : kinematics.point) upright = upright && plain(point.area_strain) > -1.0;
+    return upright;
 }
 
 /// Adds the nodal forces -V [P alpha, P beta] K^T of sub-triangle s.
@@ -137,9 +141,9 @@ void subtract_stress(const Vec2<T>& p_alpha, const Vec2<T>& p_beta, const Triang
                      std::array<Vec2<T>, Element::n_nodes>& f) {
     const auto& [a, b, c] = Element::sub_triangles[s];
     const auto& sub = geometry.of(s);
-    const Vec2<T> q_alpha = sub.volume * p_alpha, q_beta = sub.volume * p_beta;
-    const Vec2<T> g_a = sub.k_a_alpha * q_alpha + sub.k_a_beta * q_beta;
-    const Vec2<T> g_c = sub.k_c_alpha * q_alpha + sub.k_c_beta * q_beta;
+    // V K first: one product for all four sub-triangles where they are similar
+    const Vec2<T> g_a = (sub.volume * sub.k_a_alpha) * p_alpha + (sub.volume * sub.k_a_beta) * p_beta;
+    const Vec2<T> g_c = (sub.volume * sub.k_c_alpha) * p_alpha + (sub.volume * sub.k_c_beta) * p_beta;
     if (geometry.is_turned(s)) {
         f[a] += g_a;
         f[c] += g_c;
@@ -210,9 +214,8 @@ std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T
     const K inverse_s_v = K(1.0) / (K(1.0) + kinematics.volume_strain);
     std::array<T, Element::n_sub> area_rate;
     for (int s = 0; s < Element::n_sub; ++s) {
-        const auto [alpha, beta] = axes_images(v, geometry, s);
-        rates[s].alpha = alpha;
-        rates[s].beta = beta;
+        auto& [alpha, beta, volume_rate] = rates[s];
+        axes_images(v, geometry, s, alpha, beta);
         const Vec2<K> c_alpha = cofactor_alpha(kinematics.point[s]), c_beta = cofactor_beta(kinematics.point[s]);
         area_rate[s] = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
     }

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "integrators/lanczos.hpp"
 
 namespace gneiss {
@@ -57,6 +58,13 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
         }
         absorbing_.push_back(node);
     }
+    special_.clear();
+    for (const Constraint& constraint : constraints) special_.push_back(constraint.dof);
+    for (const AbsorbingNode& node : absorbing_) {
+        const auto x = 2 * static_cast<std::size_t>(node.block.node);
+        if (!node.x_prescribed) special_.push_back(x);
+        if (!node.y_prescribed) special_.push_back(x + 1);
+    }
     const std::size_t n = constraints.size();
     for (auto* values : {&prescribed_, &middle_, &end_velocity_, &net_, &net_before_, &reactions_})
         values->assign(n, 0.0);
@@ -106,6 +114,13 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     } else {
         system.force(state, Trial::of(state), a_);
     }
+    settle(system, state);
+    for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];
+    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched
+    if (!anew) state.path.external_work -= acceleration_measure(system) - measure_before;
+}
+
+void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
     const auto constraints = system.constraints();
     for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[constraints[k].dof];
     subtract_damping(system, state.v, net_);
@@ -116,12 +131,7 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
         a_[x] -= inverse_mass_[x] * (block.xx * state.v[x] + block.xy * state.v[y]);
         a_[y] -= inverse_mass_[y] * (block.xy * state.v[x] + block.yy * state.v[y]);
     }
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        a_[constraints[k].dof] = 0;
-        reactions_[k] = -net_[k];
-    }
-    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched
-    if (!anew) state.path.external_work -= acceleration_measure(system) - measure_before;
+    for (const Constraint& constraint : constraints) a_[constraint.dof] = 0;
 }
 
 double CentralDifference::acceleration_measure(const SemiDiscrete& system) const {
@@ -162,24 +172,62 @@ double CentralDifference::choose_step(double remaining) const {
     return remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
 }
 
-StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, double t_stop) {
+void CentralDifference::plan_step(const SemiDiscrete& system, const State& state, double t_stop) {
     if (steps_since_bound_ >= bound_interval_) evaluate_bound(system, state);
-    const double remaining = t_stop - state.t;
-    const double dt = choose_step(remaining);
+    const double remaining = t_stop - state.t, dt = choose_step(remaining);
     if (options_.dt > critical_)
         throw RecoverableError(
             fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s", options_.dt,
                         critical_, state.t));
-
     dt_ = dt;
     next_.t = dt == remaining ? t_stop : state.t + dt;
     next_.last_event = state.last_event;
-    kick_and_drift(system, state, dt);
+}
+
+StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, double t_stop) {
+    return advance_unseen(system, state, t_stop, state.t);
+}
+
+StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) {
+    constexpr std::size_t most = 16;  // what every further one saves is the same, and somebody may want to stop the run
+    const bool unseen = can_pass_unseen(system);
+    plan_step(system, state, t_stop);
+    kick_and_drift(system, state);
+    std::size_t n_steps = 1;
+    for (double dt_before = 0;; ++n_steps) {
+        try {
+            if (n_steps > 1) kick_on_and_drift(system, state, dt_before);
+            evaluate(system, state);
+        } catch (...) {
+            if (n_steps == 1) throw;
+            synchronise(system, state, dt_before);  // what went wrong will again when it is the first step
+            return {state.t, dt_, 0, n_steps, n_steps - 1};
+        }
+        ++steps_since_bound_;
+        const bool seen = n_steps == most || !(next_.t < std::min(t_look, t_stop));
+        if (!unseen || seen || steps_since_bound_ >= bound_interval_) break;
+        remember_special();
+        kick_special(system, state);
+        add_path_energies(system, state);
+        accept_unseen(state);
+        dt_before = dt_;
+        plan_step(system, state, t_stop);
+    }
+    kick(system, state);
+    add_path_energies(system, state);
+    std::swap(state, next_);
+    return {state.t, dt_, 0, n_steps, n_steps};
+}
+
+void CentralDifference::evaluate(const SemiDiscrete& system, const State& state) {
+    const Trial trial{next_.t, next_.last_event, next_.u, next_.v, {}};
     if (!next_.z.empty())
-        system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, a_, next_.z, next_.history);
+        system.force_and_update(state, trial, a_, next_.z, next_.history);
     else
-        system.force(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, a_);
-    kick(system, state, dt);
+        system.force(state, trial, a_);
+}
+
+void CentralDifference::add_path_energies(const SemiDiscrete& system, const State& state) {
     system.add_path_energies(state, next_);
     for (std::size_t k = 0; k < net_.size(); ++k) {
         // what the support adds: the change of this degree's kinetic energy that the other forces do not explain
@@ -188,13 +236,58 @@ StepReport CentralDifference::advance(const SemiDiscrete& system, State& state, 
             0.5 * system.lumped_mass()[dof] * (next_.v[dof] * next_.v[dof] - state.v[dof] * state.v[dof]);
         next_.path.support_work += kinetic - 0.5 * (net_[k] + net_before_[k]) * (next_.u[dof] - state.u[dof]);
     }
-    std::swap(state, next_);
-    ++steps_since_bound_;
-    return {state.t, dt, 0, 1};
 }
 
-void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& state, double dt) {
-    const double half = 0.5 * dt;
+bool CentralDifference::can_pass_unseen(const SemiDiscrete& system) const {
+    // forces that depend on velocity need v(n) everywhere, and so does the energy that damping takes
+    return v_half_.empty() && system.damping().mass_proportional == 0;
+}
+
+void CentralDifference::accept_unseen(State& state) {
+    for (const std::size_t dof : special_) state.v[dof] = next_.v[dof];
+    state.v.swap(next_.v);  // stays in next_: v(n+1/2)
+    std::swap(state, next_);
+}
+
+void CentralDifference::kick_on_and_drift(const SemiDiscrete& system, const State& state, double dt_before) {
+    const double half_before = 0.5 * dt_before, half = 0.5 * dt_, dt = dt_;
+    const double *u = state.u.data(), *a = a_.data(), *inverse_mass = inverse_mass_.data();
+    double *u_next = next_.u.data(), *v_half = next_.v.data();
+    const std::size_t n = a_.size();
+    parallel_ranges(n, [=](std::size_t first, std::size_t last) {
+        constexpr std::size_t length = 64, ahead = 6 * length;
+        for (std::size_t begin = first; begin < last; begin += length) {
+            const std::size_t end = std::min(begin + length, last);
+            for (const double* values : {u, a, inverse_mass}) prefetch(values, begin + ahead, end + ahead, n);
+            for (double* values : {u_next, v_half}) prefetch<Access::write>(values, begin + ahead, end + ahead, n);
+#pragma omp simd
+            for (std::size_t i = begin; i < end; ++i) {
+                // f(n), a(n) and v(n), in the operations of kick() and kick_and_drift()
+                const double acceleration = inverse_mass[i] * a[i];
+                const double v_next = v_half[i] + half_before * acceleration + half * acceleration;
+                v_half[i] = v_next;
+                u_next[i] = u[i] + dt * v_next;
+            }
+        }
+    });
+    for (const std::size_t dof : special_) {
+        next_.v[dof] = state.v[dof] + half * a_[dof];
+        next_.u[dof] = state.u[dof] + dt * next_.v[dof];
+    }
+    prescribe(system, state);
+}
+
+void CentralDifference::synchronise(const SemiDiscrete& system, State& state, double dt_before) {
+    system.force(state, Trial::of(state), a_);
+    for (const std::size_t dof : special_) next_.v[dof] = state.v[dof];
+    for (std::size_t i = 0; i < a_.size(); ++i) state.v[i] = next_.v[i] - 0.5 * dt_ * inverse_mass_[i] * a_[i];
+    for (const std::size_t dof : special_) state.v[dof] = next_.v[dof];
+    settle(system, state);
+    dt_ = dt_before;
+}
+
+void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& state) {
+    const double dt = dt_, half = 0.5 * dt;
     const double *u = state.u.data(), *v = state.v.data(), *a = a_.data();
     double *u_next = next_.u.data(), *v_next = next_.v.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
@@ -205,7 +298,7 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
             u_next[i] = u[i] + dt * v_half;
         }
     });
-    prescribe(system, state, dt);
+    prescribe(system, state);
     if (!v_half_.empty()) {
         // forces that depend on velocity see v(n+1/2) + dt/2 a(n), of order 2 at t(n+1)
         double* v_half = v_half_.data();
@@ -220,9 +313,10 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
     }
 }
 
-void CentralDifference::prescribe(const SemiDiscrete& system, const State& state, double dt) {
+void CentralDifference::prescribe(const SemiDiscrete& system, const State& state) {
     const auto constraints = system.constraints();
     if (constraints.empty()) return;
+    const double dt = dt_;
     system.constraint_values(state.t + 0.5 * dt, next_.last_event, middle_);
     system.constraint_values(next_.t, next_.last_event, prescribed_);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -240,19 +334,10 @@ void CentralDifference::prescribe(const SemiDiscrete& system, const State& state
     }
 }
 
-void CentralDifference::kick(const SemiDiscrete& system, const State& state, double dt) {
-    const double half = 0.5 * dt, c = system.damping().mass_proportional, inverse_damping = 1 / (1 + half * c);
-    const double* v_half = v_half_.empty() ? next_.v.data() : v_half_.data();
-    const auto constraints = system.constraints();
-    net_before_.swap(net_);
-    for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[constraints[k].dof];  // f, before it is overwritten
-    for (AbsorbingNode& node : absorbing_) {
-        const auto x = 2 * static_cast<std::size_t>(node.block.node);
-        node.v_half = {v_half[x], v_half[x + 1]};
-        node.f = {a_[x], a_[x + 1]};
-    }
-
-    const double* inverse_mass = inverse_mass_.data();
+void CentralDifference::kick(const SemiDiscrete& system, const State& state) {
+    remember_special();
+    const double half = 0.5 * dt_, c = system.damping().mass_proportional, inverse_damping = 1 / (1 + half * c);
+    const double *v_half = v_half_.empty() ? next_.v.data() : v_half_.data(), *inverse_mass = inverse_mass_.data();
     double *v = next_.v.data(), *a = a_.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
 #pragma omp simd
@@ -262,6 +347,25 @@ void CentralDifference::kick(const SemiDiscrete& system, const State& state, dou
             a[i] = force_per_mass - c * v[i];
         }
     });
+    kick_special(system, state);
+}
+
+void CentralDifference::remember_special() {
+    const double* v_half = v_half_.empty() ? next_.v.data() : v_half_.data();
+    net_before_.swap(net_);
+    for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[special_[k]];  // f: constraints come first
+    for (AbsorbingNode& node : absorbing_) {
+        const auto x = 2 * static_cast<std::size_t>(node.block.node);
+        node.v_half = {v_half[x], v_half[x + 1]};
+        node.f = {a_[x], a_[x + 1]};
+    }
+}
+
+void CentralDifference::kick_special(const SemiDiscrete& system, const State& state) {
+    const double dt = dt_, half = 0.5 * dt, c = system.damping().mass_proportional;
+    const auto constraints = system.constraints();
+    const double* inverse_mass = inverse_mass_.data();
+    double *v = next_.v.data(), *a = a_.data();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         next_.v[constraints[k].dof] = end_velocity_[k];
         a_[constraints[k].dof] = 0;

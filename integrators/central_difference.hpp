@@ -33,6 +33,8 @@ public:
     std::string name() const override { return "central_difference"; }
     void start(const SemiDiscrete& system, State& state, StartReason why) override;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
+    /// One pass over the nodes per step instead of two, where neither forces nor energies need v(n).
+    StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) override;
     /// 1/2 v(n-1/2) . M v(n+1/2): with it the leapfrog conserves the energy of a linear system to round-off.
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions() const override { return reactions_; }
@@ -54,9 +56,29 @@ private:
     /// dt^2/8 a . M a, J: what v(n) . M v(n)/2 exceeds v(n-1/2) . M v(n+1/2)/2 by.
     double acceleration_measure(const SemiDiscrete& system) const;
     double choose_step(double remaining) const;
-    void kick_and_drift(const SemiDiscrete& system, const State& state, double dt);
-    void prescribe(const SemiDiscrete& system, const State& state, double dt);
-    void kick(const SemiDiscrete& system, const State& state, double dt);
+    /// Looks at the bound if that is due, and chooses the next step: dt_, and the time in next_.
+    void plan_step(const SemiDiscrete& system, const State& state, double t_stop);
+    void kick_and_drift(const SemiDiscrete& system, const State& state);
+    void prescribe(const SemiDiscrete& system, const State& state);
+    /// f(n+1) into a_; z and history into next_.
+    void evaluate(const SemiDiscrete& system, const State& state);
+    void kick(const SemiDiscrete& system, const State& state);
+    /// On constrained and absorbing degrees of freedom: keeps v(n+1/2) and f(n+1), from which kick_special() makes
+    /// v(n+1) and a(n+1).
+    void remember_special();
+    void kick_special(const SemiDiscrete& system, const State& state);
+    void add_path_energies(const SemiDiscrete& system, const State& state);
+
+    // Steps that nobody sees keep v(n+1/2) in next_.v; state.v holds v(n) on special degrees of freedom alone.
+    bool can_pass_unseen(const SemiDiscrete& system) const;
+    /// Accepts a step unseen.
+    void accept_unseen(State& state);
+    /// The end of a step of length dt_before and the beginning of the next one, on all degrees of freedom.
+    void kick_on_and_drift(const SemiDiscrete& system, const State& state, double dt_before);
+    /// state.v and a_ at the last accepted state, after a later step has failed.
+    void synchronise(const SemiDiscrete& system, State& state, double dt_before);
+    /// From forces in a_ to accelerations; and net_, at an accepted state.
+    void settle(const SemiDiscrete& system, const State& state);
     /// Subtracts C v from forces on the constrained degrees of freedom.
     void subtract_damping(const SemiDiscrete& system, std::span<const double> v, std::vector<double>& net) const;
 
@@ -83,6 +105,7 @@ private:
     std::vector<double> end_velocity_;         ///< v(n+1) of prescribed motion
     std::vector<double> net_, net_before_, reactions_;
     std::vector<AbsorbingNode> absorbing_;
+    std::vector<std::size_t> special_;  ///< degrees of freedom that are constrained or absorbing
     mutable std::vector<double> partial_;
 };
 

@@ -41,11 +41,11 @@ struct MunjizaStretches {
 
 template <class T>
 MunjizaStretches<T> munjiza_stretches(const PointKinematics<T>& point) {
-    const Vec2<T> beta_bar = turned(point.axis);
-    const T alpha_m1 = 2.0 * dot(point.axis, point.h_alpha) + dot(point.h_alpha, point.h_alpha);
-    const T beta_m1 = 2.0 * dot(beta_bar, point.h_beta) + dot(point.h_beta, point.h_beta);
-    const T alpha_dot_beta =
-        dot(point.axis, point.h_beta) + dot(beta_bar, point.h_alpha) + dot(point.h_alpha, point.h_beta);
+    // with a = axis + h: a.a - 1 = (axis + a).h, and the same for beta; alpha.beta = a.h_beta + axis_beta.h_alpha
+    const Vec2<T> beta_bar = turned(point.axis), alpha = point.alpha();
+    const T alpha_m1 = dot(point.axis + alpha, point.h_alpha);
+    const T beta_m1 = dot(beta_bar + point.beta(), point.h_beta);
+    const T alpha_dot_beta = dot(alpha, point.h_beta) + dot(beta_bar, point.h_alpha);
     // three reciprocals from one division
     const T alpha_squared = T(1.0) + alpha_m1, beta_squared = T(1.0) + beta_m1, area = point.jacobian();
     const T both = alpha_squared * beta_squared;

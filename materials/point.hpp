@@ -24,15 +24,10 @@ struct PointKinematics {
     T jacobian() const { return T(1.0) + area_strain; }  ///< det F
 };
 
-/// det F - 1 = tr H + det H, without the loss of digits of det F - 1.
+/// det F - 1 = tr H + det H, without the loss of digits of det F - 1: (H alpha) x (F beta) + alpha x (H beta).
 template <class T>
 T area_strain(const Vec2<T>& axis, const Vec2<T>& h_alpha, const Vec2<T>& h_beta) {
-    return dot(axis, h_alpha) + dot(turned(axis), h_beta) + cross(h_alpha, h_beta);
-}
-
-template <class T>
-PointKinematics<T> point_kinematics(const Vec2<T>& axis, const Vec2<T>& h_alpha, const Vec2<T>& h_beta) {
-    return {axis, h_alpha, h_beta, area_strain(axis, h_alpha, h_beta)};
+    return cross(h_alpha, turned(axis) + h_beta) + cross(axis, h_beta);
 }
 
 /// Rates of the same quantities.

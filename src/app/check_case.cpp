@@ -44,9 +44,10 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     Clock::time_point started;
     March march;
     march.t_end = built.options.run.t_end;
+    march.next_look = [&](double) { return built.options.run.t_end; };
     march.after_start = [&] { started = Clock::now(); };
     march.after_step = [&](const StepReport& step) {
-        ++steps;
+        steps += static_cast<int>(step.n_steps);
         dt = step.dt;
         t_measured = std::chrono::duration<double>(Clock::now() - started).count();
         return steps < most_steps && t_measured < measured_seconds;

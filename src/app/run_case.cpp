@@ -168,9 +168,9 @@ void Run::write_checkpoint() {
 }
 
 bool Run::after_step(const StepReport& step) {
-    ++progress_.step;
+    if (progress_.step == first_step_) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
+    progress_.step += step.n_steps;
     last_dt_ = step.dt;
-    if (progress_.step == first_step_ + 1) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
     if (schedule_->row_due(step)) write_rows(step.dt);
     if (schedule_->frame_due(step)) write_frame();
     if (schedule_->checkpoint_due(step)) {
@@ -232,6 +232,7 @@ int Run::march() {
     March march;
     march.t_end = case_.options.run.t_end;
     march.next_stop = [this](double t) { return schedule_->next_stop(t); };
+    march.next_look = [this](double t) { return schedule_->next_look(t); };
     march.after_start = [this] { begin(); };
     march.after_step = [this](const StepReport& step) { return after_step(step); };
     try {

@@ -11,12 +11,11 @@ namespace {
 
 constexpr double rows_by_default = 1000;
 
-/// Number of the interval that t lies in. A time that should be a multiple of the interval counts as one despite
-/// round-off.
-double interval_number(double t, double interval) {
-    constexpr double round_off = 1e-9;
-    return std::floor(t / interval + round_off);
-}
+/// A time that should be a multiple of an interval counts as one despite round-off.
+constexpr double round_off = 1e-9;
+
+/// Number of the interval that t lies in.
+double interval_number(double t, double interval) { return std::floor(t / interval + round_off); }
 
 /// The next multiple of an interval after t; infinite if there is no interval.
 double next_multiple(double t, double interval) {
@@ -42,6 +41,8 @@ double Schedule::next_stop(double t) const {
         if (!reached(t, time)) stop = std::min(stop, time);
     return stop;
 }
+
+double Schedule::next_look(double t) const { return (interval_number(t, history_) + 1 - round_off) * history_; }
 
 bool Schedule::row_due(const StepReport& step) const { return passed_multiple(step, history_) || is_last(step); }
 

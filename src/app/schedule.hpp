@@ -18,6 +18,9 @@ public:
     /// Where the step that begins at t has to end at the latest, s; infinite if nothing is planned. See reached().
     double next_stop(double t) const;
 
+    /// The instant from which on a step that begins at t makes the next row due, s.
+    double next_look(double t) const;
+
     bool row_due(const StepReport& step) const;
     bool frame_due(const StepReport& step) const;
     bool checkpoint_due(const StepReport& step) const;

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 
 namespace gneiss {
 namespace {
@@ -15,10 +16,17 @@ namespace {
 /// nodes stay in the nearest cache and that two thousand elements still occupy two threads.
 constexpr std::size_t chunk_size = 1024;
 
+/// Nodes whose displacements and forces no longer fit a second-level cache of 1 MiB. Below, asking for them ahead costs
+/// 3 % of a step; far above it saves 10 %.
+constexpr std::size_t many_nodes = (1 << 20) / (2 * bytes_per_pair);
+
 }  // namespace
 
 ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, const Mesh& mesh)
-    : blocks_(std::move(blocks)), n_nodes_(mesh.n_nodes()), labels_(mesh.element_labels) {
+    : blocks_(std::move(blocks)),
+      n_nodes_(mesh.n_nodes()),
+      far_(mesh.n_nodes() > many_nodes),
+      labels_(mesh.element_labels) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const ElementBlock& block = *blocks_[b];
         z_offset_.push_back(z_offset_.back() + block.n_internal());
@@ -164,7 +172,15 @@ std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock
     gather(at.u, u);
     if (block.viscous()) gather(at.v, v);
     std::fill(local_f, local_f + 2 * n, 0.0);
-    const std::ptrdiff_t inverted = block.add_force(chunk.first, chunk.last, at, {u, v, local_f});
+    std::ptrdiff_t inverted = ElementBlock::none;
+    constexpr std::size_t n_pieces = 16;
+    const std::size_t piece = (chunk.last - chunk.first + n_pieces - 1) / n_pieces;
+    for (std::size_t i = 0, pack = chunk.first; pack < chunk.last && inverted == ElementBlock::none;
+         ++i, pack += piece) {
+        // meanwhile the nodes of the next chunk, about as many as this one has, come to a nearer cache
+        if (far_) prefetch_nodes(chunk.last_node + n * i / n_pieces, chunk.last_node + n * (i + 1) / n_pieces, at.u, f);
+        inverted = block.add_force(pack, std::min(pack + piece, chunk.last), at, {u, v, local_f});
+    }
     const std::size_t n_own = chunk.first_shared - chunk.first_node;
     const auto scatter = [](const double* from, const std::int32_t* where, std::size_t count, double* to) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -175,6 +191,14 @@ std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock
     scatter(local_f, nodes, n_own, f.data());
     scatter(local_f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
     return inverted;
+}
+
+void ElementForces::prefetch_nodes(std::size_t first, std::size_t last, const double* u, std::span<double> f) const {
+    constexpr std::size_t pairs_per_line = 4;  // most nodes of a chunk follow each other
+    for (std::size_t i = first; i < std::min(last, chunk_nodes_.size()); i += pairs_per_line) {
+        prefetch(u + 2 * chunk_nodes_[i]);
+        prefetch<Access::write>(f.data() + 2 * chunk_nodes_[i]);
+    }
 }
 
 void ElementForces::add_shared(std::span<double> f) const {

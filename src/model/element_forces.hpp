@@ -55,6 +55,7 @@ private:
     void for_each_chunk(Body body) const;
     std::pair<std::span<const std::int32_t>, std::span<PairBytes>> nodes_of(const Chunk& chunk);
     std::ptrdiff_t chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f) const;
+    void prefetch_nodes(std::size_t first, std::size_t last, const double* u, std::span<double> f) const;
     void prepare_scratch() const;
     void add_shared(std::span<double> f) const;
     [[noreturn]] void throw_inverted(std::size_t block, std::ptrdiff_t local, const ElementBlock::Evaluation& at,
@@ -64,6 +65,7 @@ private:
     std::vector<std::size_t> z_offset_{0}, history_offset_{0};
     std::vector<Chunk> chunks_;
     std::size_t n_nodes_;
+    bool far_;                          ///< nodal values come from beyond the second-level cache
     std::vector<std::int64_t> labels_;  ///< of the mesh's elements, for messages
 
     std::vector<std::int32_t> chunk_nodes_;  ///< of each chunk in the order of its local numbers

@@ -1,13 +1,20 @@
 #pragma once
-// The block of one element, one sampling of the volume and one law. Included only by the files that instantiate it.
+// The block of one element, one sampling of the volume and one law: how it is stored, and what it shows of one element.
+// What goes through whole packs is in triangle_block_evaluation.hpp. Included only by the files that instantiate it.
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "elements/triangle_kernel.hpp"
-#include "model/eigenvalue_bound.hpp"
 #include "model/element_block.hpp"
+
+// Inlines all that a function calls. Not under sanitizers: what they add to it takes minutes to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define GNEISS_FLATTEN
+#else
+#define GNEISS_FLATTEN [[gnu::flatten]]
+#endif
 
 namespace gneiss {
 
@@ -24,7 +31,8 @@ public:
     std::size_t n_history() const override { return n_packs() * history_stride; }
     bool viscous() const override { return info_.viscosity.active(); }
     std::size_t bytes_per_element() const override {
-        return (geometry_fields + Element::n_sub * (Law::n_internal + Law::n_history)) * sizeof(double) +
+        const std::size_t axis = axis_stride_ / pack_width;
+        return (geometry_fields + axis + Element::n_sub * (Law::n_internal + Law::n_history)) * sizeof(double) +
                Element::n_nodes * sizeof(PairBytes);
     }
     std::span<const std::int32_t> nodes() const override { return nodes_; }
@@ -35,7 +43,7 @@ public:
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
-    [[gnu::flatten]] Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
+    GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
     void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const override;
     std::string describe_inversion(std::size_t local, const Evaluation& at) const override;
@@ -45,7 +53,7 @@ public:
 
 private:
     static constexpr int n_dof = 2 * Element::n_nodes;
-    static constexpr std::size_t geometry_fields = Element::similar ? 7 : 3 + 5 * Element::n_sub;
+    static constexpr std::size_t geometry_fields = Element::similar ? 5 : 1 + 5 * Element::n_sub;
     static constexpr std::size_t geometry_stride = geometry_fields * pack_width;
     static constexpr std::size_t z_stride = Element::n_sub * Law::n_internal * pack_width;
     static constexpr std::size_t history_stride = Element::n_sub * Law::n_history * pack_width;
@@ -59,9 +67,9 @@ private:
 
     // ---- loads and stores of one pack; the scalar twins pick one lane
     // ------------------------------------------------
-    /// Fields in the order in which the constructor writes them, a pack's width apart.
+    /// Axis and fields in the order in which the constructor writes them, a pack's width apart.
     template <class V, class Load>
-    static TriangleGeometry<Element, V> read_geometry(const double* field, Load load);
+    static TriangleGeometry<Element, V> read_geometry(const double* axis, const double* field, Load load);
     PackGeometry geometry(std::size_t pack) const;
     TriangleGeometry<Element, double> geometry_of(std::size_t local) const;
     template <class Index>
@@ -78,15 +86,17 @@ private:
 
     /// Flattened: everything is inlined, so that a pack stays in registers from the gather to the scatter.
     template <bool given, bool update, bool viscous>
-    [[gnu::flatten]] std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
-                                                    const LocalNodes& local) const;
-    std::ptrdiff_t inverted_lane(std::size_t pack, const Pack& smallest) const;
+    GNEISS_FLATTEN std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
+                                                  const LocalNodes& local) const;
+    std::ptrdiff_t inverted_lane(std::size_t pack, const Pack::batch_bool_type& upright) const;
     /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
     Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
 
     BlockGeometry info_;
     Law law_;
-    PackVector geometry_;              ///< (packs, fields, width): axis, sub-triangles, inverse volume
+    PackVector axes_;                  ///< (packs, 2, width); one pack for all where all axes are parallel
+    std::size_t axis_stride_;          ///< from pack to pack; 0 where all axes are parallel
+    PackVector geometry_;              ///< (packs, fields, width): sub-triangles, inverse volume
     std::vector<std::int32_t> nodes_;  ///< (packs, n_nodes, width); padded lanes repeat the last element, volume 0
     std::vector<PairBytes> local_nodes_;
 };
@@ -96,6 +106,10 @@ private:
 template <class Element, Sampling sampling, class Law>
 TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeometry info, Law law)
     : info_(std::move(info)), law_(std::move(law)) {
+    const bool parallel =
+        std::ranges::adjacent_find(info_.axis_angle, std::ranges::not_equal_to()) == info_.axis_angle.end();
+    axis_stride_ = parallel ? 0 : 2 * pack_width;
+    axes_.resize((parallel ? 1 : n_packs()) * 2 * pack_width);
     geometry_.resize(n_packs() * geometry_stride);
     nodes_.resize(n_packs() * index_stride);
     for (std::size_t slot = 0; slot < n_packs() * pack_width; ++slot) {
@@ -116,8 +130,8 @@ TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeom
             *field = value;
             field += pack_width;
         };
-        put(g.axis.x);
-        put(g.axis.y);
+        axes_[pack * axis_stride_ + lane] = g.axis.x;
+        axes_[pack * axis_stride_ + pack_width + lane] = g.axis.y;
         for (const auto& sub : g.sub) {
             put(sub.k_a_alpha);
             put(sub.k_a_beta);
@@ -191,7 +205,7 @@ void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) con
 
 template <class Element, Sampling sampling, class Law>
 template <class V, class Load>
-auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* field, Load load)
+auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* axis, const double* field, Load load)
     -> TriangleGeometry<Element, V> {
     const auto take = [&] {
         const V value = load(field);
@@ -199,8 +213,8 @@ auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* field, L
         return value;
     };
     TriangleGeometry<Element, V> g;
-    g.axis.x = take();
-    g.axis.y = take();
+    g.axis.x = load(axis);
+    g.axis.y = load(axis + pack_width);
     for (auto& sub : g.sub) {
         sub.k_a_alpha = take();
         sub.k_a_beta = take();
@@ -214,13 +228,15 @@ auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* field, L
 
 template <class Element, Sampling sampling, class Law>
 auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
-    return read_geometry<Pack>(geometry_.data() + pack * geometry_stride,
+    return read_geometry<Pack>(axes_.data() + pack * axis_stride_, geometry_.data() + pack * geometry_stride,
                                [](const double* field) { return Pack::load_aligned(field); });
 }
 
 template <class Element, Sampling sampling, class Law>
 auto TriangleBlock<Element, sampling, Law>::geometry_of(std::size_t local) const -> TriangleGeometry<Element, double> {
-    return read_geometry<double>(geometry_.data() + local / pack_width * geometry_stride + local % pack_width,
+    const std::size_t pack = local / pack_width, lane = local % pack_width;
+    return read_geometry<double>(axes_.data() + pack * axis_stride_ + lane,
+                                 geometry_.data() + pack * geometry_stride + lane,
                                  [](const double* field) { return *field; });
 }
 
@@ -282,167 +298,12 @@ void TriangleBlock<Element, sampling, Law>::store_memory(const Memory<Pack>& mem
 }
 
 template <class Element, Sampling sampling, class Law>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t pack, const Pack& smallest) const {
-    std::array<double, pack_width> values;
-    smallest.store_unaligned(values.data());
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t pack,
+                                                                    const Pack::batch_bool_type& upright) const {
     for (std::size_t lane = 0; lane < pack_width; ++lane)
-        if (!(values[lane] > 0))
+        if (!upright.get(lane))
             return static_cast<std::ptrdiff_t>(std::min(pack * pack_width + lane, n_elements() - 1));
     return none;
-}
-
-// ---- forces
-// ----------------------------------------------------------------------------------------------------------
-
-template <class Element, Sampling sampling, class Law>
-template <bool given, bool update, bool viscous>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
-                                                                      const Evaluation& at,
-                                                                      const LocalNodes& nodal) const {
-    for (std::size_t pack = first; pack < last; ++pack) {
-        const PackGeometry g = geometry(pack);
-        const PairBytes* index = local_nodes_.data() + pack * index_stride;
-        const auto kinematics = triangle_kinematics<Element, sampling>(gather(nodal.u, index), g);
-        const Pack smallest = smallest_jacobian(kinematics);
-        if (!every_lane(smallest > Pack(0.0))) [[unlikely]]
-            return inverted_lane(pack, smallest);
-        const Memory<Pack> memory = load_memory(at, pack);
-        const auto stress = triangle_stress<Element, given>(law_, kinematics, g, memory);
-        Nodal<Pack> f;
-        triangle_force(kinematics, g, stress, f);
-        if constexpr (viscous) {
-            const auto rates = triangle_rates<Element, sampling>(gather(nodal.v, index), kinematics, g);
-            add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
-        }
-        if constexpr (update) {
-            Memory<Pack> updated;
-            for (std::size_t s = 0; s < Element::n_sub; ++s)
-                updated[s] = law_.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
-            store_memory(updated, at.z_updated, at.history_updated, pack);
-        }
-#pragma GCC unroll 6
-        for (int node = 0; node < Element::n_nodes; ++node)
-            scatter_add_pairs(nodal.f, index + node * pack_width, f[node].x, f[node].y);
-    }
-    return none;
-}
-
-template <class Element, Sampling sampling, class Law>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
-                                                                const Evaluation& at, const LocalNodes& local) const {
-    const auto run = [&]<bool given, bool update>() {
-        return viscous() ? add_force_packs<given, update, true>(first, last, at, local)
-                         : add_force_packs<given, update, false>(first, last, at, local);
-    };
-    if constexpr (Law::n_internal > 0) {
-        if (at.given) return run.template operator()<true, false>();
-        if (at.z_updated != nullptr) return run.template operator()<false, true>();
-    }
-    return run.template operator()<false, false>();
-}
-
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std::size_t last, const Evaluation& at,
-                                                          double* rate) const {
-    if constexpr (Law::n_internal > 0) {
-        for (std::size_t pack = first; pack < last; ++pack) {
-            const PackGeometry g = geometry(pack);
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
-            const Memory<Pack> memory = load_memory(at, pack);
-            const auto stress = triangle_stress<Element, true>(law_, kinematics, g, memory);
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
-            for (std::size_t s = 0; s < Element::n_sub; ++s) {
-                const auto z_rate =
-                    law_.rate(kinematics.point[s], stress.volume, rates[s], stress.point[s], stress.q, memory[s]);
-                for (std::size_t k = 0; k < Law::n_internal; ++k)
-                    z_rate[k].store_unaligned(rate + pack * z_stride + (s * Law::n_internal + k) * pack_width);
-            }
-        }
-    }
-}
-
-// ---- energies and bounds
-// -----------------------------------------------------------------------------------------------
-
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const
-    -> Sums {
-    Pack stored(0.0), stress_power(0.0), viscous_power(0.0);
-    for (std::size_t pack = first; pack < last; ++pack) {
-        const PackGeometry g = geometry(pack);
-        if constexpr (Law::has_stored_energy) {
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
-            const auto volume = law_.volume(kinematics.volume_strain);
-            for (int s = 0; s < Element::n_sub; ++s)
-                stored += g.of(s).volume * law_.energy_density(kinematics.point[s], volume);
-        } else {
-            const Memory<Pack> memory = load_memory(at, pack);
-            for (int s = 0; s < Element::n_sub; ++s) stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
-        }
-        if (viscous() && at.v != nullptr) {
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
-            Nodal<Pack> f{};
-            viscous_power += add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
-        }
-    }
-    return {xsimd::hadd(stored), xsimd::hadd(stress_power), xsimd::hadd(viscous_power)};
-}
-
-template <class Element, Sampling sampling, class Law>
-Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
-                                                                const Nodal<Dual<n_dof, Pack>>& f) const {
-    std::array<Pack, Element::n_nodes> mass;
-    mass.fill(Pack(0.0));
-    for (int s = 0; s < Element::n_sub; ++s)
-        for (const int node : Element::sub_triangles[s]) mass[node] += g.of(s).volume;
-    // padded lanes have no mass: any number does, they have no stiffness either
-    for (Pack& m : mass) m = Pack(1.0) / xsimd::sqrt(xsimd::max(m * Pack(info_.density / 3), Pack(1e-300)));
-    std::array<Pack, n_dof * n_dof> a;
-    const auto derivative = [&f](int i, int j) -> const Pack& {
-        return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];
-    };
-    for (int i = 0; i < n_dof; ++i)
-        for (int j = 0; j < n_dof; ++j)
-            a[i * n_dof + j] = Pack(-0.5) * (derivative(i, j) + derivative(j, i)) * mass[i / 2] * mass[j / 2];
-    return largest_eigenvalue_bound<n_dof>(a);
-}
-
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last,
-                                                          const Evaluation& at) const -> Rates {
-    using D = Dual<n_dof, Pack>;
-    const auto independent = [](const Nodal<Pack>& values) {
-        Nodal<D> duals;
-        for (int node = 0; node < Element::n_nodes; ++node)
-            duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
-        return duals;
-    };
-    Pack omega_squared(0.0), damping(0.0);
-    for (std::size_t pack = first; pack < last; ++pack) {
-        const PackGeometry g = geometry(pack);
-        const Nodal<Pack> u = gather(at.u, pack);
-        Nodal<D> f;
-        {
-            const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
-            const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
-            triangle_force(kinematics, g, stress, f);
-        }
-        omega_squared = xsimd::max(omega_squared, mass_weighted_bound(g, f));
-        if (viscous()) {
-            const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
-            const auto rates = triangle_rates<Element, sampling>(independent(gather(at.v, pack)), kinematics, g);
-            f.fill({D(0.0), D(0.0)});
-            add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
-            damping = xsimd::max(damping, mass_weighted_bound(g, f));
-        }
-    }
-    const auto largest = [](const Pack& pack) {
-        std::array<double, pack_width> values;
-        pack.store_unaligned(values.data());
-        return *std::max_element(values.begin(), values.end());
-    };
-    return {largest(omega_squared), largest(damping)};
 }
 
 // ---- output
@@ -490,3 +351,5 @@ MunjizaConstants TriangleBlock<Element, sampling, Law>::tangent_constants(std::s
 }
 
 }  // namespace gneiss
+
+#include "model/triangle_block_evaluation.hpp"

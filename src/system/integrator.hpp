@@ -18,12 +18,13 @@ enum class StartReason {
     resize         ///< the number of unknowns has changed
 };
 
-/// What one accepted step was.
+/// What one accepted step was, or several of them taken in one go.
 struct StepReport {
     double t = 0;                ///< time reached, s
-    double dt = 0;               ///< s
-    std::size_t n_rejected = 0;  ///< trials thrown away before this one
+    double dt = 0;               ///< of the last step, s
+    std::size_t n_rejected = 0;  ///< trials thrown away on the way
     std::size_t n_force = 0;     ///< force evaluations
+    std::size_t n_steps = 1;     ///< accepted steps, >= 1
 };
 
 /// An integrator's own memory, by name: saved in checkpoints beside the state.
@@ -40,6 +41,15 @@ public:
     /// One accepted step, that does not pass t_stop.
     /// @throws RecoverableError if the step failed; the state is then still the last accepted one
     virtual StepReport advance(const SemiDiscrete& system, State& state, double t_stop) = 0;
+
+    /// Steps of which nobody sees any but the last: those that advance() would take, with the same bits, until one
+    /// comes to t_look or there have been enough of them for once. An integrator that need not complete its state after
+    /// every step saves work here.
+    /// @throws RecoverableError if the first step failed; later ones are left to the next call
+    virtual StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) {
+        (void)t_look;
+        return advance(system, state, t_stop);
+    }
 
     /// Kinetic energy in the measure in which this integrator's balance is sharpest, J.
     virtual double kinetic_energy(const SemiDiscrete& system, const State& state) const = 0;

@@ -39,10 +39,14 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
         integrator.start(system, state, StartReason::fresh);
     }
     if (after_start) after_start();
+    // an event that watches the state sees every step
+    const bool unseen =
+        next_look && std::ranges::all_of(system.events(), [](const auto& event) { return event->n_indicators() == 0; });
     while (state.t < t_end) {
-        const double stop = next_stop ? next_stop(state.t) : t_end;
-        const StepReport step =
-            integrator.advance(system, state, first_instant({t_end, stop, next_event_time(system, state)}));
+        const double planned = next_stop ? next_stop(state.t) : t_end;
+        const double stop = first_instant({t_end, planned, next_event_time(system, state)});
+        const StepReport step = unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
+                                       : integrator.advance(system, state, stop);
         switch (apply_due_events(system, state)) {
             case EventOutcome::none:
                 break;

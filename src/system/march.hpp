@@ -22,9 +22,13 @@ struct March {
     /// The next time after t at which a step has to end (output of fields, checkpoints), s; may be infinite. Where it
     /// differs from t_end or from an event by round-off alone, the step ends at the last of them.
     std::function<double(double t)> next_stop;
+    /// The instant after t at which after_step() wants to see the state next, s: steps before it may pass unseen.
+    /// Without this it sees every step.
+    std::function<double(double t)> next_look;
     /// Called once before the first step, when the integrator has started.
     std::function<void()> after_start;
-    /// Called after every accepted step, once its events have been applied. Returns false to stop.
+    /// Called after every accepted step that is not passed unseen, once its events have been applied. Returns false to
+    /// stop.
     std::function<bool(const StepReport& step)> after_step;
 
     /// Applies events that are due, starts the integrator unless it goes on from a checkpoint, and steps to t_end.

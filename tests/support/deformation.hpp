@@ -52,8 +52,9 @@ inline constexpr std::array<double, 4> axis_angles_under_test{0.0, 0.4, -1.3, 2.
 template <class T>
 PointKinematics<T> point_at(const Tensor<T>& h, double axis_angle) {
     const double c = std::cos(axis_angle), s = std::sin(axis_angle);
-    return point_kinematics<T>({T(c), T(s)}, {c * h[0] + s * h[1], c * h[2] + s * h[3]},
-                               {c * h[1] - s * h[0], c * h[3] - s * h[2]});
+    const Vec2<T> axis{T(c), T(s)};
+    const Vec2<T> h_alpha{c * h[0] + s * h[1], c * h[2] + s * h[3]}, h_beta{c * h[1] - s * h[0], c * h[3] - s * h[2]};
+    return {axis, h_alpha, h_beta, area_strain(axis, h_alpha, h_beta)};
 }
 
 /// F' alpha, F' beta and s_v'/s_v from F', row by row, 1/s.

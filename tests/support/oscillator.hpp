@@ -76,8 +76,8 @@ public:
         };
         return {std::sqrt(largest(model_.stiffness)), model_.viscosity.size() > 0 ? largest(model_.viscosity) : 0.0};
     }
-    /// The next force evaluation fails.
-    void fail_once() { fails_ = true; }
+    /// One force evaluation fails, once n have succeeded.
+    void fail_after(int n) { until_failure_ = n; }
 
     Layout layout() const override { return {mass_.size(), n_internal(), 0}; }
     State initial_state() const override {
@@ -101,7 +101,7 @@ public:
     bool force_depends_on_velocity() const override { return model_.viscosity.size() > 0; }
 
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override {
-        if (std::exchange(fails_, false)) throw RecoverableError("told to fail");
+        if (until_failure_-- == 0) throw RecoverableError("told to fail");
         const Vector z = trial.z.empty() ? updated(accepted, trial) : vector(trial.z);
         const Vector force =
             applied(trial.t, trial.last_event >= model_.switch_time, vector(trial.u), vector(trial.v), z);
@@ -180,7 +180,7 @@ private:
     std::vector<Constraint> constraints_;
     std::vector<double> mass_;
     std::vector<std::unique_ptr<Event>> events_;
-    mutable bool fails_ = false;
+    mutable int until_failure_ = -1;
 };
 
 /// u, v and z of the oscillator at time t by the classic Runge-Kutta method with steps of at most dt that end at the

@@ -76,6 +76,7 @@ TEST(Step, OnceUnderWay_AllocatesNothing) {
         for (int step = 0; step < warm_up; ++step) integrator.advance(system, state, far_away);
         const std::size_t before = n_allocations;
         for (int step = 0; step < n_steps; ++step) integrator.advance(system, state, far_away);
+        for (int step = 0; step < n_steps; ++step) integrator.advance_unseen(system, state, far_away, far_away);
         EXPECT_EQ(n_allocations - before, 0u);
     }
 }

@@ -27,6 +27,9 @@ Counts march(const CaseOptions& options, double dt) {
         const double next = n > 1 ? t + length : stop;
         const StepReport step{next, length};
         counts.rows += schedule.row_due(step);
+        // whoever looks when told to misses no row
+        EXPECT_EQ(schedule.row_due(step), !(next < schedule.next_look(t)) || !(next < options.run.t_end))
+            << "t = " << t;
         counts.checkpoints += schedule.checkpoint_due(step);
         if (schedule.frame_due(step)) counts.frames.push_back(next);
         counts.shortest = std::min(counts.shortest, length);

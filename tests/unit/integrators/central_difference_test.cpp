@@ -299,9 +299,103 @@ TEST(CentralDifferenceSteps, FailedForce_LeavesTheAcceptedState) {
     integrator.start(system, state, StartReason::fresh);
     advance(system, integrator, state, 3, 0.01);
     const State before = state;
-    system.fail_once();
+    system.fail_after(0);
     EXPECT_THROW(integrator.advance(system, state, 1), RecoverableError);
     EXPECT_EQ(state, before);
+}
+
+// ---- steps that nobody sees
+// -------------------------------------------------------------------------------------------------
+
+/// Everything that steps may pass unseen with: a load, a support that moves, an absorbing node, internal variables.
+OscillatorModel without_damping() {
+    OscillatorModel model = chain();
+    model.damping.blocks = {{1, 3, 1, 2}};
+    model.load = [](double t, bool) { return Vector{{3 * std::sin(9 * t), 1, t, -2}}; };
+    model.maxwell = Matrix{{1, 0, -1, 0}};
+    model.maxwell_stiffness = 5;
+    model.prescribed = {{{1, Constraint::Kind::displacement},
+                         [](double t) { return 0.1 * std::sin(5 * t); },
+                         [](double t) { return 0.5 * std::cos(5 * t); },
+                         [](double t) { return -2.5 * std::sin(5 * t); }}};
+    return model;
+}
+
+/// An integrator under way, and its twin.
+struct Pair {
+    explicit Pair(const OscillatorModel& model) : system(model) {
+        integrator.start(system, state, StartReason::fresh);
+        twin.start(system, twin_state, StartReason::fresh);
+    }
+    Oscillator system;
+    CentralDifference integrator{{.safety = 0.7, .bound_interval = 50}}, twin{{.safety = 0.7, .bound_interval = 50}};
+    State state = system.initial_state(), twin_state = system.initial_state();
+};
+
+TEST(CentralDifferenceUnseen, AnyNumberOfSteps_HaveTheBitsOfSeenOnes) {
+    Pair pair(without_damping());
+    constexpr double t_stop = 10;
+    std::size_t most = 0;
+    while (pair.state.t < t_stop) {
+        const StepReport report = pair.integrator.advance_unseen(pair.system, pair.state, t_stop, t_stop);
+        most = std::max(most, report.n_steps);
+        EXPECT_EQ(report.n_force, report.n_steps);
+        for (std::size_t step = 0; step < report.n_steps; ++step)
+            pair.twin.advance(pair.system, pair.twin_state, t_stop);
+        ASSERT_EQ(pair.state, pair.twin_state) << "t = " << pair.state.t;
+        ASSERT_EQ(pair.integrator.save(), pair.twin.save());
+        EXPECT_EQ(pair.integrator.kinetic_energy(pair.system, pair.state),
+                  pair.twin.kinetic_energy(pair.system, pair.twin_state));
+    }
+    EXPECT_GT(most, 8u);
+    EXPECT_EQ(pair.twin_state.t, t_stop);
+}
+
+TEST(CentralDifferenceUnseen, TheFirstStepThatComesToTheLook_IsSeen) {
+    Pair pair(without_damping());
+    const double look = 3.5 * 0.7 * pair.integrator.critical_time_step();
+    const StepReport report = pair.integrator.advance_unseen(pair.system, pair.state, 10, look);
+    EXPECT_EQ(report.n_steps, 4u);
+    EXPECT_LT(report.t - report.dt, look);
+    EXPECT_GE(report.t, look);
+}
+
+TEST(CentralDifferenceUnseen, DampingAndViscosity_EveryStepIsSeen) {
+    OscillatorModel damped = without_damping(), viscous = without_damping();
+    damped.damping.mass_proportional = 0.4;
+    viscous.viscosity = 0.01 * viscous.stiffness;
+    for (const OscillatorModel& model : {damped, viscous}) {
+        Pair pair(model);
+        EXPECT_EQ(pair.integrator.advance_unseen(pair.system, pair.state, 10, 10).n_steps, 1u);
+    }
+}
+
+TEST(CentralDifferenceUnseen, FailureUnderWay_KeepsTheStepsBeforeIt) {
+    Pair pair(without_damping());
+    pair.system.fail_after(5);
+    const StepReport report = pair.integrator.advance_unseen(pair.system, pair.state, 10, 10);
+    EXPECT_EQ(report.n_steps, 5u);
+    for (int step = 0; step < 5; ++step) pair.twin.advance(pair.system, pair.twin_state, 10);
+    EXPECT_EQ(pair.state.t, pair.twin_state.t);
+    EXPECT_EQ(pair.state.u, pair.twin_state.u);
+    EXPECT_EQ(pair.state.path, pair.twin_state.path);
+    // v(n) comes back from v(n+1/2): a subtraction undoes an addition but for round-off
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(pair.state.v[i], pair.twin_state.v[i], 8 * eps * size(pair.state));
+    EXPECT_NEAR(pair.integrator.kinetic_energy(pair.system, pair.state),
+                pair.twin.kinetic_energy(pair.system, pair.twin_state), 64 * eps);
+    EXPECT_THAT(pair.integrator.reactions(), ElementsAre(pair.twin.reactions()[0]));
+    // and the run can go on
+    while (pair.state.t < 1) pair.integrator.advance_unseen(pair.system, pair.state, 1, 1);
+    while (pair.twin_state.t < 1) pair.twin.advance(pair.system, pair.twin_state, 1);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(pair.state.u[i], pair.twin_state.u[i], 1e-12 * size(pair.state));
+}
+
+TEST(CentralDifferenceUnseen, FailureInTheFirstStep_IsReported) {
+    Pair pair(without_damping());
+    pair.system.fail_after(0);
+    const State before = pair.state;
+    EXPECT_THROW(pair.integrator.advance_unseen(pair.system, pair.state, 10, 10), RecoverableError);
+    EXPECT_EQ(pair.state, before);
 }
 
 // ---- restart

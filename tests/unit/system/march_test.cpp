@@ -89,6 +89,13 @@ public:
         diary_.push_back("step to " + number(state.t));
         return {state.t, state.t - before, 0, 1};
     }
+    /// Two steps in one go, as far as that is allowed.
+    StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) override {
+        StepReport report = advance(system, state, t_stop);
+        if (state.t < std::min(t_stop, t_look)) report = advance(system, state, t_stop);
+        diary_.push_back("seen at " + number(state.t));
+        return report;
+    }
     double kinetic_energy(const SemiDiscrete&, const State&) const override { return 0; }
     std::span<const double> reactions() const override { return {}; }
     IntegratorMemory save() const override { return {}; }
@@ -109,8 +116,29 @@ protected:
     EventsOnly system;
     ScriptedIntegrator integrator{diary};
     State state;
-    March march{.t_end = 2.5, .next_stop = {}, .after_start = {}, .after_step = {}};
+    March march{.t_end = 2.5, .next_stop = {}, .next_look = {}, .after_start = {}, .after_step = {}};
 };
+
+TEST_F(MarchOverTime, NextLook_StepsBeforeItPassUnseen) {
+    march.next_look = [](double t) { return t < 1 ? 1.0 : infinity; };
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "seen at 1.", "step to 2.", "step to 2.5",
+                                   "seen at 2.5"));
+}
+
+TEST_F(MarchOverTime, NextLook_BesideAnEventThatWatches_EveryStepIsSeen) {
+    class Watcher final : public Event {
+    public:
+        std::string name() const override { return "watcher"; }
+        std::optional<double> next_time(const State&) const override { return {}; }
+        std::size_t n_indicators() const override { return 1; }
+        EventOutcome apply(State&) override { return EventOutcome::none; }
+    };
+    system.list.push_back(std::make_unique<Watcher>());
+    march.next_look = [](double) { return infinity; };
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "step to 2.", "step to 2.5"));
+}
 
 TEST_F(MarchOverTime, NothingSpecial_StepsToTheEnd) {
     EXPECT_EQ(run(), MarchOutcome::finished);

@@ -1,0 +1,186 @@
+#pragma once
+// Forces, rates, energies and bounds of the packs of a block: the second half of triangle_block.hpp.
+
+#include <algorithm>
+#include <array>
+
+#include "base/prefetch.hpp"
+#include "model/eigenvalue_bound.hpp"
+#include "model/triangle_block.hpp"
+
+namespace gneiss {
+
+// ---- forces
+// ----------------------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+template <bool given, bool update, bool viscous>
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
+                                                                      const Evaluation& at,
+                                                                      const LocalNodes& nodal) const {
+    // A few packs go through each stage together: the chain of operations from a pack's displacements to its forces is
+    // longer than the window in which the processor finds independent work.
+    constexpr std::size_t depth = 4, ahead = 12;
+    std::array<TriangleKinematics<Element, Pack>, depth> kinematics;
+    std::array<TriangleStress<Element, Law, Pack>, depth> stress;
+    const auto index = [this](std::size_t pack) { return local_nodes_.data() + pack * index_stride; };
+    for (std::size_t begin = first; begin < last; begin += depth) {
+        const std::size_t n = std::min(depth, last - begin);
+        prefetch(geometry_.data(), (begin + ahead) * geometry_stride, (begin + ahead + depth) * geometry_stride,
+                 geometry_.size());
+        prefetch(local_nodes_.data(), (begin + ahead) * index_stride, (begin + ahead + depth) * index_stride,
+                 local_nodes_.size());
+        for (std::size_t i = 0; i < n; ++i) {
+            kinematics[i] =
+                triangle_kinematics<Element, sampling>(gather(nodal.u, index(begin + i)), geometry(begin + i));
+            const auto upright = is_upright(kinematics[i]);
+            if (!every_lane(upright)) [[unlikely]]
+                return inverted_lane(begin + i, upright);
+        }
+        for (std::size_t i = 0; i < n; ++i)
+            stress[i] =
+                triangle_stress<Element, given>(law_, kinematics[i], geometry(begin + i), load_memory(at, begin + i));
+        for (std::size_t i = 0; i < n; ++i) {
+            const PackGeometry g = geometry(begin + i);
+            Nodal<Pack> f;
+            triangle_force(kinematics[i], g, stress[i], f);
+            if constexpr (viscous) {
+                const auto rates =
+                    triangle_rates<Element, sampling>(gather(nodal.v, index(begin + i)), kinematics[i], g);
+                add_viscous_force<Element>(info_.viscosity, kinematics[i], rates, g, f);
+            }
+            if constexpr (update) {
+                const Memory<Pack> memory = load_memory(at, begin + i);
+                Memory<Pack> updated;
+                for (std::size_t s = 0; s < Element::n_sub; ++s)
+                    updated[s] = law_.update(kinematics[i].point[s], stress[i].volume, stress[i].point[s], stress[i].q,
+                                             memory[s]);
+                store_memory(updated, at.z_updated, at.history_updated, begin + i);
+            }
+#pragma GCC unroll 6
+            for (int node = 0; node < Element::n_nodes; ++node)
+                scatter_add_pairs(nodal.f, index(begin + i) + node * pack_width, f[node].x, f[node].y);
+        }
+    }
+    return none;
+}
+
+template <class Element, Sampling sampling, class Law>
+std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
+                                                                const Evaluation& at, const LocalNodes& local) const {
+    const auto run = [&]<bool given, bool update>() {
+        return viscous() ? add_force_packs<given, update, true>(first, last, at, local)
+                         : add_force_packs<given, update, false>(first, last, at, local);
+    };
+    if constexpr (Law::n_internal > 0) {
+        if (at.given) return run.template operator()<true, false>();
+        if (at.z_updated != nullptr) return run.template operator()<false, true>();
+    }
+    return run.template operator()<false, false>();
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std::size_t last, const Evaluation& at,
+                                                          double* rate) const {
+    if constexpr (Law::n_internal > 0) {
+        for (std::size_t pack = first; pack < last; ++pack) {
+            const PackGeometry g = geometry(pack);
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const Memory<Pack> memory = load_memory(at, pack);
+            const auto stress = triangle_stress<Element, true>(law_, kinematics, g, memory);
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            for (std::size_t s = 0; s < Element::n_sub; ++s) {
+                const auto z_rate =
+                    law_.rate(kinematics.point[s], stress.volume, rates[s], stress.point[s], stress.q, memory[s]);
+                for (std::size_t k = 0; k < Law::n_internal; ++k)
+                    z_rate[k].store_unaligned(rate + pack * z_stride + (s * Law::n_internal + k) * pack_width);
+            }
+        }
+    }
+}
+
+// ---- energies and bounds
+// -----------------------------------------------------------------------------------------------
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const
+    -> Sums {
+    Pack stored(0.0), stress_power(0.0), viscous_power(0.0);
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const PackGeometry g = geometry(pack);
+        if constexpr (Law::has_stored_energy) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const auto volume = law_.volume(kinematics.volume_strain);
+            for (int s = 0; s < Element::n_sub; ++s)
+                stored += g.of(s).volume * law_.energy_density(kinematics.point[s], volume);
+        } else {
+            const Memory<Pack> memory = load_memory(at, pack);
+            for (int s = 0; s < Element::n_sub; ++s) stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
+        }
+        if (viscous() && at.v != nullptr) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            Nodal<Pack> f{};
+            viscous_power += add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+        }
+    }
+    return {xsimd::hadd(stored), xsimd::hadd(stress_power), xsimd::hadd(viscous_power)};
+}
+
+template <class Element, Sampling sampling, class Law>
+Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
+                                                                const Nodal<Dual<n_dof, Pack>>& f) const {
+    std::array<Pack, Element::n_nodes> mass;
+    mass.fill(Pack(0.0));
+    for (int s = 0; s < Element::n_sub; ++s)
+        for (const int node : Element::sub_triangles[s]) mass[node] += g.of(s).volume;
+    // padded lanes have no mass: any number does, they have no stiffness either
+    for (Pack& m : mass) m = Pack(1.0) / xsimd::sqrt(xsimd::max(m * Pack(info_.density / 3), Pack(1e-300)));
+    std::array<Pack, n_dof * n_dof> a;
+    const auto derivative = [&f](int i, int j) -> const Pack& {
+        return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];
+    };
+    for (int i = 0; i < n_dof; ++i)
+        for (int j = 0; j < n_dof; ++j)
+            a[i * n_dof + j] = Pack(-0.5) * (derivative(i, j) + derivative(j, i)) * mass[i / 2] * mass[j / 2];
+    return largest_eigenvalue_bound<n_dof>(a);
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last,
+                                                          const Evaluation& at) const -> Rates {
+    using D = Dual<n_dof, Pack>;
+    const auto independent = [](const Nodal<Pack>& values) {
+        Nodal<D> duals;
+        for (int node = 0; node < Element::n_nodes; ++node)
+            duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
+        return duals;
+    };
+    Pack omega_squared(0.0), damping(0.0);
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const PackGeometry g = geometry(pack);
+        const Nodal<Pack> u = gather(at.u, pack);
+        Nodal<D> f;
+        {
+            const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
+            const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
+            triangle_force(kinematics, g, stress, f);
+        }
+        omega_squared = xsimd::max(omega_squared, mass_weighted_bound(g, f));
+        if (viscous()) {
+            const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
+            const auto rates = triangle_rates<Element, sampling>(independent(gather(at.v, pack)), kinematics, g);
+            f.fill({D(0.0), D(0.0)});
+            add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+            damping = xsimd::max(damping, mass_weighted_bound(g, f));
+        }
+    }
+    const auto largest = [](const Pack& pack) {
+        std::array<double, pack_width> values;
+        pack.store_unaligned(values.data());
+        return *std::max_element(values.begin(), values.end());
+    };
+    return {largest(omega_squared), largest(damping)};
+}
+
+}  // namespace gneiss
