@@ -33,7 +33,7 @@ struct BlockGeometry {
 
 /// Values at one sub-triangle, for output.
 struct PointFields {
-    std::array<double, 3> cauchy;       ///< xx, yy, xy, Pa
+    std::array<double, 3> cauchy;       ///< xx, yy, xy, Pa; the law's and the viscous part
     std::array<double, 4> munjiza;      ///< v, alpha, beta, psi, Pa; NaN for laws that know none
     std::array<double, 4> stretch;      ///< s_v (of the composite), s_alpha, s_beta, s_psi
     std::array<double, 2> alpha, beta;  ///< current axes, length = stretch
@@ -87,6 +87,16 @@ public:
     /// @return an inverted element (local number), or `none`
     virtual std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                                      const LocalNodes& local) const = 0;
+    /// Whether df/du and df/dv are symmetric.
+    virtual bool symmetric_tangent() const = 0;
+    /// Where the 2 x 2 blocks of element matrices stand in a matrix of compressed rows.
+    struct MatrixPlaces {
+        const std::uint32_t* blocks;  ///< first entry of a pair of nodes, shape (packs, n_nodes, n_nodes, pack_width)
+        const std::uint32_t* row_lengths;  ///< of the rows of a node, shape (nodes of the mesh)
+    };
+    /// Adds c_u df/du + c_v df/dv of packs [first, last), memory updated with u.
+    virtual void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
+                             const MatrixPlaces& places, double* values) const = 0;
     /// z' at given z.
     virtual void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const = 0;
 

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "base/dual.hpp"
 #include "model/edge_pressure.hpp"
 
 namespace gneiss {
@@ -45,6 +46,31 @@ void FollowerPressure::add_force(const Trial& trial, std::span<double> f) const 
         const auto [force_a, force_b] = forces(edge, amplitude, trial.u);
         add(f, edge.a, force_a);
         add(f, edge.b, force_b);
+    }
+}
+
+std::vector<std::array<std::int32_t, 2>> FollowerPressure::couplings() const {
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (const Edge& edge : edges_)
+        pairs.insert(pairs.end(), {{edge.a, edge.a}, {edge.a, edge.b}, {edge.b, edge.a}, {edge.b, edge.b}});
+    return pairs;
+}
+
+void FollowerPressure::stiffness(const Trial& trial, std::span<Stiffness> df_du) const {
+    using D = Dual<2>;
+    const Amplitude::Instant amplitude = amplitude_.at(trial.t, trial.last_event);
+    auto out = df_du.begin();
+    for (const Edge& edge : edges_) {
+        // linear in the current edge u_b - u_a + ...: the derivative does not depend on where it is
+        const Vec2<D> current{D::variable(0, 0), D::variable(0, 1)};
+        const auto forces = edge_pressure_forces(current, amplitude(edge.x_a.x, edge.x_a.y) * edge.p_a,
+                                                 amplitude(edge.x_b.x, edge.x_b.y) * edge.p_b, thickness_);
+        for (const Vec2<D>& force : forces) {
+            const auto& x = force.x.derivative;
+            const auto& y = force.y.derivative;
+            *out++ = {-x[0], -x[1], -y[0], -y[1]};
+            *out++ = {x[0], x[1], y[0], y[1]};
+        }
     }
 }
 

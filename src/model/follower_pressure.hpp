@@ -25,6 +25,8 @@ public:
 
     std::string name() const override { return name_; }
     void add_force(const Trial& trial, std::span<double> f) const override;
+    std::vector<std::array<std::int32_t, 2>> couplings() const override;
+    void stiffness(const Trial& trial, std::span<Stiffness> df_du) const override;
     void add_path_energies(const Trial& from, const Trial& to, PathEnergies& energies) const override;
     std::vector<double> switch_times() const override { return amplitude_.switch_times(); }
 

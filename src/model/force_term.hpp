@@ -2,6 +2,8 @@
 // One contribution to f beside the elements: loads, later joints, contact and lumped models. The solid system sums
 // them.
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,19 @@ public:
 
     /// Adds its forces, N, to f of shape (2 n_nodes). Pure; called by one thread, in the order of the terms.
     virtual void add_force(const Trial& trial, std::span<double> f) const = 0;
+
+    /// Pairs of nodes (a, b) where the force on a depends on the displacement of b, in any order; a pair may occur more
+    /// than once. The nodes of a pair belong to one element.
+    virtual std::vector<std::array<std::int32_t, 2>> couplings() const { return {}; }
+    /// df_a/du_b, N/m.
+    struct Stiffness {
+        double xx, xy, yx, yy;  ///< first index: force
+    };
+    /// @param[out] df_du  overwritten, in the order of couplings()
+    virtual void stiffness(const Trial& trial, std::span<Stiffness> df_du) const {
+        (void)trial;
+        (void)df_du;
+    }
 
     /// Adds to `energies` what the step from one accepted state to the next adds: the trapezoidal rule
     /// 1/2 (f_from + f_to) . (u_to - u_from), which closes the balance of the leapfrog exactly.

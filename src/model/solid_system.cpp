@@ -64,6 +64,11 @@ void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::
     elements_.internal_rate(accepted, trial, rate);
 }
 
+const Tangent* SolidSystem::tangent() const {
+    if (!tangent_) tangent_ = std::make_unique<SolidTangent>(elements_, terms_, mass_, damping_);
+    return tangent_.get();
+}
+
 FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
     const ElementBlock::Rates rates = elements_.largest_rates(accepted);
     return {std::sqrt(rates.omega_squared), rates.damping};

@@ -8,6 +8,7 @@
 #include "model/boundaries.hpp"
 #include "model/element_forces.hpp"
 #include "model/force_term.hpp"
+#include "model/solid_tangent.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
@@ -22,6 +23,7 @@ public:
         std::vector<double> initial_velocity;  ///< m/s, shape (2 n_nodes)
     };
     SolidSystem(const Mesh& mesh, Parts parts);
+    SolidSystem(SolidSystem&&) = delete;  // the tangent refers to its parts
 
     Layout layout() const override;
     State initial_state() const override;
@@ -35,6 +37,8 @@ public:
                           std::span<double> history) const override;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
     double smallest_length() const override { return smallest_edge_; }
+    /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
+    const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
     StoredEnergies stored_energies(const State& state) const override;
     void add_path_energies(const State& from, State& to) const override;
@@ -61,7 +65,8 @@ private:
     std::vector<double> mass_;
     double smallest_edge_;
     std::vector<std::unique_ptr<Event>> events_;
-    mutable std::vector<double> partial_;  ///< scratch of sums
+    mutable std::vector<double> partial_;            ///< scratch of sums
+    mutable std::unique_ptr<SolidTangent> tangent_;  ///< null before it is asked for
 };
 
 }  // namespace gneiss

@@ -42,6 +42,11 @@ public:
     void add_mass(std::span<double> mass) const override;
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
+    bool symmetric_tangent() const override {
+        return Law::has_stored_energy && sampling == Sampling::mean && !viscous();
+    }
+    void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
+                     const MatrixPlaces& places, double* values) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
@@ -89,6 +94,20 @@ private:
     GNEISS_FLATTEN std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
                                                   const LocalNodes& local) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack::batch_bool_type& upright) const;
+    /// The same displacements or velocities as independent variables.
+    static Nodal<Dual<n_dof, Pack>> independent(const Nodal<Pack>& values);
+    static Nodal<Dual<n_dof, Pack>> constant(const Nodal<Pack>& values);
+    /// Forces of the law with their derivatives by u; without viscous forces.
+    template <bool given>
+    Nodal<Dual<n_dof, Pack>> law_force(const PackGeometry& g, const Nodal<Pack>& u, const Memory<Pack>& memory) const;
+    /// Viscous forces with their derivatives by what is independent of u and v.
+    template <class U>
+    Nodal<Dual<n_dof, Pack>> viscous_force(const PackGeometry& g, const Nodal<U>& u,
+                                           const Nodal<Dual<n_dof, Pack>>& v) const;
+    /// d(force i)/d(variable j) of an element.
+    static const Pack& derivative(const Nodal<Dual<n_dof, Pack>>& f, int i, int j) {
+        return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];
+    }
     /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
     Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
 
@@ -315,10 +334,15 @@ void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, cons
     const auto g = geometry_of(local);
     const auto kinematics = triangle_kinematics<Element, sampling>(gather_one(at.u, local), g);
     const Memory<double> memory = memory_of(at, local);
-    const auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
+    auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
+    std::array<PointRates<double>, Element::n_sub> rates{};
+    if (viscous()) rates = triangle_rates<Element, sampling>(gather_one(at.v, local), kinematics, g);
     for (int s = 0; s < Element::n_sub; ++s) {
         const PointKinematics<double>& point = kinematics.point[s];
         const Vec2<double> alpha = point.alpha(), beta = point.beta();
+        const PointStress<double> viscous_stress = info_.viscosity.stress(point, rates[s]);
+        stress.point[s].p_alpha += viscous_stress.p_alpha;
+        stress.point[s].p_beta += viscous_stress.p_beta;
         const auto sigma = cauchy_stress(point, stress.point[s], stress.q);
         PointFields& out = fields[s];
         out.cauchy = {sigma.xx, sigma.yy, sigma.xy};

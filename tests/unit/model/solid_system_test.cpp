@@ -76,6 +76,23 @@ TEST(SolidSystem, InitialState_VelocitiesAndMemory_AreThere) {
     EXPECT_EQ(solid.system->stored_energies(state).sum(), 0);
 }
 
+TEST(SolidSystem, PointFields_OfAViscousSolidInUniformFlow_HaveNewtonsStress) {
+    for (const bool compt : {false, true}) {
+        test::SolidDescription what;
+        what.materials[0].shear_viscosity = 2e3;
+        what.materials[0].bulk_viscosity = 5e3;
+        what.initial = {{"", {Formula("3*x + 2*y"), Formula("-4*x - y")}}};
+        const test::Solid solid = test::distorted_solid(compt, what);
+        // at rest, so all stress is viscous (1e-9: some hundred roundings): 2 eta (d - tr d/2 I) + zeta tr d I, d = [3,
+        // -1; -1, -1]
+        for (const PointFields& fields : solid.system->point_fields(solid.system->initial_state())) {
+            EXPECT_NEAR(fields.cauchy[0], 2 * 2e3 * 2 + 5e3 * 2, 1e-9);
+            EXPECT_NEAR(fields.cauchy[1], -2 * 2e3 * 2 + 5e3 * 2, 1e-9);
+            EXPECT_NEAR(fields.cauchy[2], 2 * 2e3 * -1, 1e-9);
+        }
+    }
+}
+
 TEST(SolidSystem, PointFields_UniformStrain_AreThoseOfHooke) {
     for (const bool compt : {false, true}) {
         const test::Solid solid = test::distorted_solid(compt);

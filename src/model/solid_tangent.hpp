@@ -1,0 +1,57 @@
+#pragma once
+// The tangent of a solid as a matrix of compressed rows: elements, loads, masses, damping.
+//
+// Chunks of packs that touch no common node have one colour; colours are assembled one after the other, the chunks of
+// one colour in parallel. An entry is thus summed in the order of the colours, for any number of threads.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/element_forces.hpp"
+#include "model/force_term.hpp"
+#include "system/semi_discrete.hpp"
+
+namespace gneiss {
+
+class SolidTangent final : public Tangent {
+public:
+    /// The arguments have to outlive the tangent.
+    SolidTangent(const ElementForces& elements, std::span<const std::unique_ptr<ForceTerm>> terms,
+                 std::span<const double> lumped_mass, const Damping& damping);
+
+    bool symmetric() const override { return symmetric_; }
+    std::span<const std::int64_t> row_starts() const override { return row_starts_; }
+    std::span<const std::int64_t> columns() const override { return columns_; }
+    void assemble(const State& accepted, const Trial& trial, const Factors& factors,
+                  std::span<double> values) const override;
+
+private:
+    struct Chunk {
+        std::size_t block, first, last;  ///< packs [first, last) of a block
+    };
+    void plan_pattern();
+    void plan_chunks();
+    void plan_places();
+    /// Where the 2 x 2 block of two nodes begins.
+    std::uint32_t place(std::int32_t row_node, std::int32_t column_node) const;
+
+    const ElementForces& elements_;
+    std::span<const std::unique_ptr<ForceTerm>> terms_;
+    std::span<const double> mass_;
+    const Damping& damping_;
+    bool symmetric_;
+
+    std::vector<std::int64_t> row_starts_, columns_;
+    std::vector<std::uint32_t> row_lengths_;          ///< of the rows of a node
+    std::vector<std::vector<std::uint32_t>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
+    std::vector<Chunk> chunks_;                       ///< by colour
+    std::vector<std::size_t> colour_starts_;          ///< in chunks_
+    std::vector<std::uint32_t> diagonal_;             ///< place of each node's own 2 x 2 block
+    std::vector<std::vector<std::uint32_t>> term_places_;
+    mutable std::vector<ForceTerm::Stiffness> term_stiffness_;  ///< scratch
+    std::vector<std::vector<std::array<std::int32_t, 2>>> couplings_;
+};
+
+}  // namespace gneiss
