@@ -1,0 +1,44 @@
+#pragma once
+// The part of a matrix over all degrees of freedom that belongs to the free ones: prescribed ones are eliminated.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "linear/linear_solver.hpp"
+
+namespace gneiss {
+
+class FreeMatrix {
+public:
+    /// @param full   its arrays have to outlive this
+    /// @param fixed  ascending, each once
+    FreeMatrix(const SparsePattern& full, std::span<const std::size_t> fixed);
+
+    SparsePattern pattern() const { return {row_starts_, columns_}; }
+    std::size_t n() const { return free_.size(); }
+    /// Number in the full matrix of each free degree of freedom, ascending.
+    std::span<const std::size_t> free() const { return free_; }
+
+    /// @param[out] values  free rows and columns of the full ones
+    void take_values(std::span<const double> full, std::span<double> values) const;
+    /// @param[out] vector  free entries of a full one
+    void take(std::span<const double> full, std::span<double> vector) const;
+    /// Writes the free entries of a full vector; leaves the others.
+    void put(std::span<const double> vector, std::span<double> full) const;
+    /// right -= A_fc x_c: what given changes of the fixed unknowns leave for the free equations.
+    /// @param x_fixed  in the order of `fixed`
+    void subtract_fixed(std::span<const double> full_values, std::span<const double> x_fixed,
+                        std::span<double> right) const;
+
+private:
+    struct Coupling {
+        std::int64_t value;      ///< in the full matrix
+        std::size_t row, fixed;  ///< free row; which of the fixed unknowns
+    };
+    std::vector<std::size_t> free_;
+    std::vector<std::int64_t> row_starts_, columns_, source_;  ///< source: of each value, in the full matrix
+    std::vector<Coupling> couplings_;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <klu.h>
+#include <algorithm>
+#include <new>
+
+#include "linear/linear_solver.hpp"
+
+namespace gneiss {
+namespace {
+
+/// KLU takes compressed columns: handed our rows, it factorises A^T, and solves with the transpose of that.
+class Klu final : public LinearSolver {
+public:
+    Klu() {
+        klu_l_defaults(&common_);
+        common_.halt_if_singular = 1;
+    }
+    Klu(const Klu&) = delete;
+    Klu& operator=(const Klu&) = delete;
+    ~Klu() override { forget(); }
+
+    std::string name() const override { return "klu"; }
+
+    void analyse(const SparsePattern& pattern) override {
+        forget();
+        pattern_ = pattern;
+        symbolic_ = klu_l_analyze(static_cast<SuiteSparse_long>(pattern.n()), starts(), columns(), &common_);
+        check("its pattern");
+    }
+
+    void factorise(std::span<const double> values) override {
+        auto* a = const_cast<double*>(values.data());
+        if (numeric_ != nullptr) {
+            // the old pivots serve as long as the smallest of them does not vanish beside the largest
+            constexpr double vanishing = 1e-12;
+            const bool done = klu_l_refactor(starts(), columns(), a, symbolic_, numeric_, &common_) != 0;
+            if (done && klu_l_rcond(symbolic_, numeric_, &common_) && common_.rcond > vanishing) return;
+            klu_l_free_numeric(&numeric_, &common_);
+        }
+        numeric_ = klu_l_factor(starts(), columns(), a, symbolic_, &common_);
+        check(fmt::format("column {}", common_.singular_col + 1));
+        if (!klu_l_rcond(symbolic_, numeric_, &common_) || !(common_.rcond > smallest_pivot_ratio))
+            throw SingularMatrix(singular_text(common_.rcond));
+    }
+
+    void solve(std::span<const double> b, std::span<double> x) override {
+        if (x.data() != b.data()) std::ranges::copy(b, x.begin());
+        klu_l_tsolve(symbolic_, numeric_, static_cast<SuiteSparse_long>(pattern_.n()), 1, x.data(), &common_);
+    }
+
+    std::size_t factor_bytes() const override {
+        const auto entries = static_cast<std::size_t>(numeric_->lnz + numeric_->unz);
+        return entries * (sizeof(double) + sizeof(SuiteSparse_long)) + pattern_.n() * 10 * sizeof(double);
+    }
+
+private:
+    SuiteSparse_long* starts() const { return const_cast<SuiteSparse_long*>(pattern_.row_starts.data()); }
+    SuiteSparse_long* columns() const { return const_cast<SuiteSparse_long*>(pattern_.columns.data()); }
+    void check(const std::string& where) {
+        if (common_.status == KLU_OK) return;
+        if (common_.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+        klu_l_free_numeric(&numeric_, &common_);
+        throw SingularMatrix("the matrix is singular: " + where);
+    }
+    void forget() {
+        klu_l_free_numeric(&numeric_, &common_);
+        klu_l_free_symbolic(&symbolic_, &common_);
+    }
+
+    klu_l_common common_{};
+    SparsePattern pattern_;
+    klu_l_symbolic* symbolic_ = nullptr;
+    klu_l_numeric* numeric_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_klu() { return std::make_unique<Klu>(); }
+
+}  // namespace gneiss

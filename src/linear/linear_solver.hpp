@@ -1,0 +1,67 @@
+#pragma once
+// Direct solvers of sparse linear systems behind one interface: analyse a pattern once, factorise and solve often.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+
+/// Where a square matrix has entries: compressed rows with ascending columns. Refers to arrays of somebody else.
+struct SparsePattern {
+    std::span<const std::int64_t> row_starts;  ///< shape (n + 1)
+    std::span<const std::int64_t> columns;     ///< shape (n_nonzero)
+
+    std::size_t n() const { return row_starts.size() - 1; }
+    std::size_t n_nonzero() const { return columns.size(); }
+};
+
+/// Ratio of the smallest to the largest pivot below which a matrix counts as singular: of sixteen digits two are left.
+inline constexpr double smallest_pivot_ratio = 1e-14;
+
+/// The matrix has no inverse, or none that can be told from round-off.
+class SingularMatrix : public RecoverableError {
+public:
+    using RecoverableError::RecoverableError;
+};
+
+/// The matrix has an eigenvalue that is zero or negative, where the solver needs them all positive.
+class NotPositiveDefinite : public SingularMatrix {
+public:
+    using SingularMatrix::SingularMatrix;
+};
+
+/// What to say of such a ratio.
+std::string singular_text(double pivot_ratio);
+
+class LinearSolver {
+public:
+    virtual ~LinearSolver() = default;
+    virtual std::string name() const = 0;
+
+    /// Orders the unknowns for all matrices of this pattern. The pattern's arrays have to stay until the next call.
+    virtual void analyse(const SparsePattern& pattern) = 0;
+    /// @param values  entries in the order of the pattern
+    /// @throws SingularMatrix, NotPositiveDefinite
+    virtual void factorise(std::span<const double> values) = 0;
+    /// Solves A x = b with the last factorisation.
+    /// @param[out] x  shape (n); may be b itself
+    virtual void solve(std::span<const double> b, std::span<double> x) = 0;
+    /// Memory of the last factorisation, bytes.
+    virtual std::size_t factor_bytes() const = 0;
+};
+
+/// L L^T of symmetric positive definite matrices, by CHOLMOD: supernodes and BLAS where they pay.
+/// The lower triangle is read alone.
+std::unique_ptr<LinearSolver> make_cholmod();
+/// L U with partial pivoting in the manner of circuit simulators, by KLU: few operations, no BLAS. Keeps its pivots
+/// while they serve.
+std::unique_ptr<LinearSolver> make_klu();
+/// L U with partial pivoting by fronts and BLAS, by UMFPACK.
+std::unique_ptr<LinearSolver> make_umfpack();
+
+}  // namespace gneiss

@@ -1,0 +1,56 @@
+#include "linear/free_matrix.hpp"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+namespace gneiss {
+namespace {
+
+using testing::ElementsAre;
+
+/// [1 2 0 0; 3 4 5 0; 0 6 7 8; 0 0 9 10]
+const std::vector<std::int64_t> starts{0, 2, 5, 8, 10}, columns{0, 1, 0, 1, 2, 1, 2, 3, 2, 3};
+const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+
+TEST(FreeMatrix, RowsAndColumnsOfFixedUnknowns_AreTakenOut) {
+    const std::vector<std::size_t> fixed{1};
+    const FreeMatrix matrix({starts, columns}, fixed);
+    EXPECT_EQ(matrix.n(), 3u);
+    EXPECT_THAT(matrix.free(), ElementsAre(0, 2, 3));
+    EXPECT_THAT(matrix.pattern().row_starts, ElementsAre(0, 1, 3, 5));
+    EXPECT_THAT(matrix.pattern().columns, ElementsAre(0, 1, 2, 1, 2));
+    std::vector<double> free_values(matrix.pattern().n_nonzero());
+    matrix.take_values(values, free_values);
+    EXPECT_THAT(free_values, ElementsAre(1, 7, 8, 9, 10));
+}
+
+TEST(FreeMatrix, Vectors_ComeAndGoBack) {
+    const std::vector<std::size_t> fixed{0, 3};
+    const FreeMatrix matrix({starts, columns}, fixed);
+    std::vector<double> free(2), full{-1, -2, -3, -4};
+    matrix.take(full, free);
+    EXPECT_THAT(free, ElementsAre(-2, -3));
+    matrix.put(std::vector<double>{20, 30}, full);
+    EXPECT_THAT(full, ElementsAre(-1, 20, 30, -4));
+}
+
+TEST(FreeMatrix, ChangesOfFixedUnknowns_GoToTheRightSide) {
+    const std::vector<std::size_t> fixed{0, 3};
+    const FreeMatrix matrix({starts, columns}, fixed);
+    std::vector<double> right{100, 200};
+    matrix.subtract_fixed(values, std::vector<double>{2, 0.5}, right);
+    EXPECT_THAT(right, ElementsAre(100 - 3 * 2, 200 - 8 * 0.5));
+}
+
+TEST(FreeMatrix, NothingOrEverythingFixed_IsAllOrNothing) {
+    const FreeMatrix all({starts, columns}, {});
+    EXPECT_THAT(all.pattern().columns, testing::ElementsAreArray(columns));
+    const std::vector<std::size_t> every{0, 1, 2, 3};
+    const FreeMatrix none({starts, columns}, every);
+    EXPECT_EQ(none.n(), 0u);
+    EXPECT_THAT(none.pattern().row_starts, ElementsAre(0));
+}
+
+}  // namespace
+}  // namespace gneiss

@@ -1,0 +1,180 @@
+// Every direct solver on matrices of elastic solids, against dense factorisations.
+
+#include "linear/linear_solver.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Dense>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "support/one_thread.hpp"
+#include "support/small_solids.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+struct Choice {
+    const char* name;
+    std::function<std::unique_ptr<LinearSolver>()> make;
+};
+
+/// A matrix in compressed rows with the pattern of a solid.
+struct Sparse {
+    test::Solid solid = test::distorted_solid(true);
+    const Tangent& tangent = *solid.system->tangent();
+    SparsePattern pattern{tangent.row_starts(), tangent.columns()};
+    std::vector<double> values = std::vector<double>(pattern.n_nonzero());
+
+    /// K + mass times M in relative units: positive definite if mass > 0, with the rigid modes of K if mass = 0.
+    explicit Sparse(double mass) {
+        const State state = solid.system->initial_state();
+        std::vector<double> m(values.size());
+        tangent.assemble(state, Trial::of(state), {.stiffness = 1}, values);
+        tangent.assemble(state, Trial::of(state), {.mass = 1}, m);
+        const double scale = std::ranges::max(values) / std::ranges::max(m);
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] += mass * scale * m[k];
+    }
+    /// Makes it unsymmetric; still far from singular.
+    void disturb() {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> factor(0.9, 1.1);
+        for (double& value : values) value *= factor(random);
+    }
+    Eigen::MatrixXd dense() const {
+        const auto n = static_cast<Eigen::Index>(pattern.n());
+        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+        for (Eigen::Index row = 0; row < n; ++row)
+            for (auto k = pattern.row_starts[static_cast<std::size_t>(row)];
+                 k < pattern.row_starts[static_cast<std::size_t>(row) + 1]; ++k)
+                matrix(row, pattern.columns[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
+        return matrix;
+    }
+};
+
+/// Largest |A x - b| over |A||x|, in eps.
+double backward_error(const Sparse& a, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
+    const Eigen::MatrixXd dense = a.dense();
+    return (dense * x - b).cwiseAbs().maxCoeff() / (dense.cwiseAbs() * x.cwiseAbs()).maxCoeff() / eps;
+}
+
+Eigen::VectorXd solve(LinearSolver& solver, const Eigen::VectorXd& b) {
+    Eigen::VectorXd x(b.size());
+    const auto n = static_cast<std::size_t>(b.size());
+    solver.solve({b.data(), n}, {x.data(), n});
+    return x;
+}
+
+Eigen::VectorXd right_side(const Sparse& a, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(a.pattern.n()), [&] { return normal(random); });
+}
+
+std::string name_of(const testing::TestParamInfo<Choice>& test_case) { return test_case.param.name; }
+
+class LinearSolverOf : public testing::TestWithParam<Choice> {
+protected:
+    std::unique_ptr<LinearSolver> solver = GetParam().make();
+};
+/// Those that take any regular matrix.
+class GeneralLinearSolverOf : public LinearSolverOf {};
+
+TEST_P(LinearSolverOf, PositiveDefinite_SolvesToRoundOff) {
+    const Sparse a(0.1);
+    solver->analyse(a.pattern);
+    solver->factorise(a.values);
+    for (const unsigned seed : {1u, 2u}) {
+        const Eigen::VectorXd b = right_side(a, seed);
+        EXPECT_LE(backward_error(a, solve(*solver, b), b), 100);
+    }
+    EXPECT_GT(solver->factor_bytes(), a.pattern.n_nonzero() / 2 * sizeof(double));
+}
+
+TEST_P(LinearSolverOf, InPlace_SameBits) {
+    const Sparse a(0.1);
+    solver->analyse(a.pattern);
+    solver->factorise(a.values);
+    Eigen::VectorXd b = right_side(a, 1);
+    const Eigen::VectorXd x = solve(*solver, b);
+    solver->solve({b.data(), a.pattern.n()}, {b.data(), a.pattern.n()});
+    EXPECT_EQ(b, x);
+}
+
+TEST_P(LinearSolverOf, NewValuesAndNewPattern_AreTaken) {
+    Sparse a(0.1);
+    solver->analyse(a.pattern);
+    solver->factorise(a.values);
+    for (double& value : a.values) value *= 3;
+    solver->factorise(a.values);
+    const Eigen::VectorXd b = right_side(a, 1);
+    EXPECT_LE(backward_error(a, solve(*solver, b), b), 100);
+
+    const std::vector<std::int64_t> starts{0, 1, 2}, columns{0, 1};
+    solver->analyse({starts, columns});
+    solver->factorise(std::vector<double>{4, 16});  // with exact roots
+    EXPECT_EQ(solve(*solver, Eigen::Vector2d(4, 8)), Eigen::Vector2d(1, 0.5));
+}
+
+TEST_P(GeneralLinearSolverOf, Unsymmetric_SolvesTheMatrixAndNotItsTranspose) {
+    Sparse a(1);
+    a.disturb();
+    solver->analyse(a.pattern);
+    solver->factorise(a.values);
+    const Eigen::VectorXd b = right_side(a, 1);
+    EXPECT_LE(backward_error(a, solve(*solver, b), b), 1000);
+}
+
+TEST_P(GeneralLinearSolverOf, SmallPivotsAfterNewValues_ArePivotedAnew) {
+    // the pivots that serve the first matrix vanish in the second
+    const std::vector<std::int64_t> starts{0, 2, 4}, columns{0, 1, 0, 1};
+    solver->analyse({starts, columns});
+    solver->factorise(std::vector<double>{1, 0.5, 0.5, 1});
+    solver->factorise(std::vector<double>{1e-18, 1, 1, 1e-18});
+    const Eigen::VectorXd x = solve(*solver, Eigen::Vector2d(3, 5));
+    EXPECT_NEAR(x[0], 5, 1e-14);
+    EXPECT_NEAR(x[1], 3, 1e-14);
+}
+
+TEST_P(LinearSolverOf, FreeBody_IsSingular) {
+    const Sparse a(0);
+    solver->analyse(a.pattern);
+    EXPECT_THROW(solver->factorise(a.values), SingularMatrix);
+}
+
+TEST_P(GeneralLinearSolverOf, Indefinite_Solves) {
+    const Sparse a(-0.5);
+    solver->analyse(a.pattern);
+    solver->factorise(a.values);
+    const Eigen::VectorXd b = right_side(a, 1);
+    EXPECT_LE(backward_error(a, solve(*solver, b), b), 1000);
+}
+
+TEST(Cholmod, Indefinite_IsRefused) {
+    const Sparse a(-0.5);
+    const auto solver = make_cholmod();
+    solver->analyse(a.pattern);
+    EXPECT_THROW(solver->factorise(a.values), NotPositiveDefinite);
+}
+
+TEST_P(LinearSolverOf, AfterAFailure_GoesOn) {
+    const Sparse singular(0), sound(0.1);
+    solver->analyse(singular.pattern);
+    EXPECT_THROW(solver->factorise(singular.values), SingularMatrix);
+    solver->factorise(sound.values);
+    const Eigen::VectorXd b = right_side(sound, 1);
+    EXPECT_LE(backward_error(sound, solve(*solver, b), b), 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Direct, LinearSolverOf,
+                         testing::Values(Choice{"Cholmod", make_cholmod}, Choice{"Klu", make_klu},
+                                         Choice{"Umfpack", make_umfpack}),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Direct, GeneralLinearSolverOf,
+                         testing::Values(Choice{"Klu", make_klu}, Choice{"Umfpack", make_umfpack}), name_of);
+
+}  // namespace
+}  // namespace gneiss
