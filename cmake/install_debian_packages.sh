@@ -15,7 +15,7 @@ packages=(
     ca-certificates git
     g++ cmake ninja-build ccache                   # compiler with OpenMP, build
     libeigen3-dev libxsimd-dev                     # linear algebra, packs
-    libsuitesparse-dev                             # sparse linear systems
+    libsuitesparse-dev libsundials-dev             # sparse linear systems; nonlinear ones and ODEs
     libgmsh-dev                                    # meshes
     libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev

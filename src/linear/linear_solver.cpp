@@ -9,4 +9,55 @@ std::string singular_text(double pivot_ratio) {
                        pivot_ratio);
 }
 
+namespace {
+
+/// CHOLMOD as long as it can.
+class SymmetricSolver final : public LinearSolver {
+public:
+    std::string name() const override { return "automatic"; }
+    void analyse(const SparsePattern& pattern) override {
+        pattern_ = pattern;
+        definite_->analyse(pattern);
+        general_.reset();
+    }
+    void factorise(std::span<const double> values) override {
+        try {
+            definite_->factorise(values);
+            last_ = definite_.get();
+        } catch (const NotPositiveDefinite&) {
+            if (!general_) {
+                general_ = make_umfpack();
+                general_->analyse(pattern_);
+            }
+            general_->factorise(values);
+            last_ = general_.get();
+        }
+    }
+    void solve(std::span<const double> b, std::span<double> x) override { last_->solve(b, x); }
+    std::size_t factor_bytes() const override { return last_->factor_bytes(); }
+
+private:
+    SparsePattern pattern_;
+    std::unique_ptr<LinearSolver> definite_ = make_cholmod(), general_;
+    LinearSolver* last_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, bool symmetric) {
+    if (name == "automatic") {
+        if (symmetric) return std::make_unique<SymmetricSolver>();
+        return make_umfpack();
+    }
+    if (name == "klu") return make_klu();
+    if (name == "umfpack") return make_umfpack();
+    if (name != "cholmod")
+        throw InputError("integrator.solver",
+                         fmt::format("given `{}`, must be one of automatic, cholmod, klu, umfpack", name));
+    if (!symmetric)
+        throw InputError("integrator.solver",
+                         "given `cholmod`, but the tangent is not symmetric: take umfpack, klu or automatic");
+    return make_cholmod();
+}
+
 }  // namespace gneiss

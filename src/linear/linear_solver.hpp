@@ -64,4 +64,9 @@ std::unique_ptr<LinearSolver> make_klu();
 /// L U with partial pivoting by fronts and BLAS, by UMFPACK.
 std::unique_ptr<LinearSolver> make_umfpack();
 
+/// By name: "cholmod", "klu", "umfpack"; or "automatic": CHOLMOD for symmetric matrices, UMFPACK for those that turn
+/// out not to be positive definite, and for all others.
+/// @throws InputError for another name, and for "cholmod" if the matrices are not symmetric
+std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, bool symmetric);
+
 }  // namespace gneiss

@@ -74,6 +74,8 @@ Eigen::VectorXd right_side(const Sparse& a, unsigned seed) {
     return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(a.pattern.n()), [&] { return normal(random); });
 }
 
+std::unique_ptr<LinearSolver> make_automatic() { return make_linear_solver("automatic", true); }
+
 std::string name_of(const testing::TestParamInfo<Choice>& test_case) { return test_case.param.name; }
 
 class LinearSolverOf : public testing::TestWithParam<Choice> {
@@ -171,10 +173,30 @@ TEST_P(LinearSolverOf, AfterAFailure_GoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(Direct, LinearSolverOf,
                          testing::Values(Choice{"Cholmod", make_cholmod}, Choice{"Klu", make_klu},
-                                         Choice{"Umfpack", make_umfpack}),
+                                         Choice{"Umfpack", make_umfpack}, Choice{"Automatic", make_automatic}),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Direct, GeneralLinearSolverOf,
                          testing::Values(Choice{"Klu", make_klu}, Choice{"Umfpack", make_umfpack}), name_of);
+
+TEST(Automatic, IndefiniteAmongDefinite_SolvesBoth) {
+    const Sparse definite(0.1), indefinite(-0.5);
+    const auto solver = make_automatic();
+    solver->analyse(definite.pattern);
+    for (const Sparse* a : {&definite, &indefinite, &definite}) {
+        solver->factorise(a->values);
+        const Eigen::VectorXd b = right_side(*a, 1);
+        EXPECT_LE(backward_error(*a, solve(*solver, b), b), 1000);
+    }
+}
+
+TEST(MakeLinearSolver, NamesAndSymmetry_AreChecked) {
+    EXPECT_EQ(make_linear_solver("klu", false)->name(), "klu");
+    EXPECT_EQ(make_linear_solver("umfpack", true)->name(), "umfpack");
+    EXPECT_EQ(make_linear_solver("cholmod", true)->name(), "cholmod");
+    EXPECT_EQ(make_linear_solver("automatic", false)->name(), "umfpack");
+    EXPECT_THROW(make_linear_solver("cholmod", false), InputError);
+    EXPECT_THROW(make_linear_solver("mumps", true), InputError);
+}
 
 }  // namespace
 }  // namespace gneiss

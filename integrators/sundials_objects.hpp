@@ -1,0 +1,73 @@
+#pragma once
+// What SUNDIALS works with, owned by C++: contexts, vectors over our arrays, and a matrix and a linear solver of ours
+// behind its interfaces.
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include <memory>
+#include <span>
+#include <sundials/sundials_context.hpp>
+#include <vector>
+
+#include "linear/linear_solver.hpp"
+
+namespace gneiss {
+
+inline std::span<double> values_of(N_Vector vector) {
+    return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
+}
+
+struct VectorDeleter {
+    void operator()(N_Vector vector) const { N_VDestroy(vector); }
+};
+using OwnedVector = std::unique_ptr<_generic_N_Vector, VectorDeleter>;
+
+inline OwnedVector new_vector(std::size_t n, SUNContext context) {
+    return OwnedVector(N_VNew_Serial(static_cast<sunindextype>(n), context));
+}
+
+/// A matrix in compressed rows as a SUNMatrix: SUNDIALS hands it on, and multiplies with it.
+class SundialsMatrix {
+public:
+    /// @param pattern  its arrays have to outlive this
+    SundialsMatrix(const SparsePattern& pattern, SUNContext context);
+    SundialsMatrix(const SundialsMatrix&) = delete;
+    SundialsMatrix& operator=(const SundialsMatrix&) = delete;
+    ~SundialsMatrix() { SUNMatFreeEmpty(matrix_); }
+
+    SUNMatrix get() const { return matrix_; }
+    std::span<double> values() { return values_; }
+
+private:
+    static int multiply(SUNMatrix matrix, N_Vector x, N_Vector y);
+
+    SparsePattern pattern_;
+    std::vector<double> values_;
+    SUNMatrix matrix_;
+};
+
+/// A LinearSolver as a SUNLinearSolver: set up with a SundialsMatrix's values.
+class SundialsSolver {
+public:
+    SundialsSolver(LinearSolver& solver, SundialsMatrix& matrix, SUNContext context);
+    SundialsSolver(const SundialsSolver&) = delete;
+    SundialsSolver& operator=(const SundialsSolver&) = delete;
+    ~SundialsSolver() { SUNLinSolFreeEmpty(linear_solver_); }
+
+    SUNLinearSolver get() const { return linear_solver_; }
+    /// Why the last factorisation failed; empty if it did not.
+    const std::string& failure() const { return failure_; }
+
+private:
+    static int setup(SUNLinearSolver self, SUNMatrix);
+    static int solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype);
+
+    LinearSolver& solver_;
+    SundialsMatrix& matrix_;
+    SUNLinearSolver linear_solver_;
+    std::string failure_;
+};
+
+}  // namespace gneiss
