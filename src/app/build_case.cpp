@@ -1,9 +1,11 @@
 #include "app/build_case.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "base/errors.hpp"
 #include "integrators/central_difference.hpp"
+#include "integrators/quasi_static.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
@@ -39,6 +41,35 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
         options.solid.thickness);
 }
 
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
+    if (o.type == "quasi_static")
+        return std::make_unique<QuasiStatic>(
+            QuasiStatic::Options{o.tolerance, o.step, o.longest, o.shortest, o.most_iterations, o.solver});
+    return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
+}
+
+/// What is given and has no effect where nothing moves.
+std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
+    std::vector<std::string> warnings;
+    const auto idle = [&](bool given, const char* what) {
+        if (given) warnings.push_back(fmt::format("{}: has no effect under integrator.type = \"quasi_static\"", what));
+    };
+    idle(!options.initial.empty(), "initial");
+    idle(options.run.mass_damping > 0, "run.mass_damping");
+    idle(std::ranges::any_of(options.boundaries,
+                             [](const auto& b) { return b.kind == BoundaryOptions::Kind::absorbing; }),
+         "boundary with kind = \"absorbing\"");
+    idle(std::ranges::any_of(options.materials,
+                             [](const auto& m) { return m.shear_viscosity > 0 || m.bulk_viscosity > 0; }),
+         "viscosity of a material");
+    if (std::ranges::any_of(options.loads,
+                            [](const auto& load) { return load.amplitude.kind == AmplitudeOptions::Kind::constant; }))
+        warnings.push_back(
+            "load with a constant amplitude: is there in full at the first load step; with a ramp it grows, "
+            "and the energies balance");
+    return warnings;
+}
+
 }  // namespace
 
 Case build_case(CaseOptions options) {
@@ -55,9 +86,7 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
     collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
     parts.damping.mass_proportional = options.run.mass_damping;
-    const CentralDifference::Options central{options.integrator.safety, options.integrator.dt,
-                                             options.integrator.lanczos};
-    collect(problems, [&] { built.integrator = std::make_unique<CentralDifference>(central); });
+    collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
     collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
 
@@ -65,6 +94,8 @@ Case build_case(CaseOptions options) {
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
+    if (options.integrator.type == "quasi_static")
+        for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
     built.options = std::move(options);
     return built;

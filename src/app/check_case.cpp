@@ -73,9 +73,10 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("points", names_of(mesh.node_sets, mesh.boundaries));
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
-    const double dt_given = built.options.integrator.dt;
-    line("step", dt_given > 0 ? fmt::format("{:.4g} s, fixed", dt)
-                              : fmt::format("{:.4g} s, {} of the critical step", dt, built.options.integrator.safety));
+    const IntegratorOptions& integrator = built.options.integrator;
+    line("step", integrator.type == "quasi_static" ? fmt::format("{:.4g} s of load time, adapted", dt)
+                 : integrator.dt > 0               ? fmt::format("{:.4g} s, fixed", dt)
+                                     : fmt::format("{:.4g} s, {} of the critical step", dt, integrator.safety));
     line("steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, built.options.run.t_end));
     const Schedule schedule(built.options);
     line("output",

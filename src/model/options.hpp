@@ -109,6 +109,11 @@ struct IntegratorOptions {
     double safety = 0.8;   ///< factor on the critical step, (0, 1]
     double dt = 0;         ///< fixed step, s; 0: from the critical step
     bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
+
+    // quasi_static: QuasiStatic::Options
+    double tolerance = 1e-9, step = 0, longest = 0, shortest = 1e-6;
+    int most_iterations = 20;
+    std::string solver = "automatic";
 };
 
 struct RunOptions {

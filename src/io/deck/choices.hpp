@@ -96,8 +96,16 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
     {"expression", AmplitudeOptions::Kind::expression, "an expression of t, x and y"},
 }};
 
-inline const std::array<Choice<std::string>, 1> integrators{{
+inline const std::array<Choice<std::string>, 2> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
+    {"quasi_static", "quasi_static", "equilibria under growing loads, by Newton's method; time is load time"},
+}};
+
+inline const std::array<Choice<std::string>, 4> linear_solvers{{
+    {"automatic", "automatic", "CHOLMOD where the tangent is symmetric and positive definite, UMFPACK elsewhere"},
+    {"cholmod", "cholmod", "Cholesky, for symmetric positive definite tangents alone"},
+    {"klu", "klu", "LU for small and very sparse matrices"},
+    {"umfpack", "umfpack", "LU by fronts, for large matrices"},
 }};
 
 inline constexpr std::array<Choice<bool>, 2> step_bounds{{

@@ -103,6 +103,14 @@ plane = "stress"
 law = "neo_hookean"
 density = 1000
 constants = { mu = 1e9, lambda = 2e9 }
+[integrator]
+type = "quasi_static"
+tolerance = 1e-8
+step = 0.1
+longest = 0.2
+shortest = 1e-4
+most_iterations = 10
+solver = "umfpack"
 [run]
 t_end = 1
 )toml",
@@ -216,12 +224,14 @@ TEST(DeckReference, DecksInTheDocument_AreAccepted) {
 
 /// Every written default, read from a deck, gives the same options as leaving the key out would.
 TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
-    const auto defaults = [](const std::string& name) {
+    const auto defaults = [](const std::string& name, const std::string& only_for = {}) {
         std::string text;
         for (const deck::SectionDoc& section : deck::section_docs()) {
             if (section.name != name) continue;
             for (const deck::KeyDoc& key : section.keys) {
-                if (!key.default_text.empty()) text += key.name + " = " + key.default_text + "\n";
+                const bool applies = only_for.empty() || key.only_for.empty() ||
+                                     std::ranges::find(key.only_for[0].words, only_for) != key.only_for[0].words.end();
+                if (!key.default_text.empty() && applies) text += key.name + " = " + key.default_text + "\n";
             }
         }
         return text;
@@ -229,8 +239,8 @@ TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
     const std::string deck = "[mesh]\nfile = \"a.msh\"\n[solid]\nplane = \"stress\"\n" + defaults("solid") +
                              "[[material]]\ndensity = 1\nconstants = { E = 1, nu = 0 }\nform = \"hypo\"\n" +
                              "in_situ_stress = [0, 0, 0]\nviscosity = { shear = 0, bulk = 0 }\n[integrator]\n" +
-                             defaults("integrator") + "[run]\nt_end = 1\n" + defaults("run") + "[output]\n" +
-                             defaults("output");
+                             defaults("integrator", "central_difference") + "[run]\nt_end = 1\n" + defaults("run") +
+                             "[output]\n" + defaults("output");
     const CaseOptions read = parse_deck(deck, "defaults.toml");
     const SolidOptions solid;
     EXPECT_EQ(read.solid.compt, solid.compt);
@@ -241,6 +251,22 @@ TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
     EXPECT_EQ(read.integrator.safety, integrator.safety);
     EXPECT_EQ(read.integrator.dt, integrator.dt);
     EXPECT_EQ(read.integrator.lanczos, integrator.lanczos);
+    std::string of_statics = defaults("integrator", "quasi_static");
+    of_statics.replace(of_statics.find("central_difference"), 18, "quasi_static");
+    const IntegratorOptions statics =
+        parse_deck(
+            "[mesh]\nfile = \"a.msh\"\n[solid]\nplane = \"stress\"\n[[material]]\ndensity = 1\nconstants = "
+            "{ E = 1, nu = 0 }\n[integrator]\n" +
+                of_statics + "[run]\nt_end = 1\n",
+            "defaults.toml")
+            .integrator;
+    EXPECT_EQ(statics.type, "quasi_static");
+    EXPECT_EQ(statics.tolerance, integrator.tolerance);
+    EXPECT_EQ(statics.step, integrator.step);
+    EXPECT_EQ(statics.longest, integrator.longest);
+    EXPECT_EQ(statics.shortest, integrator.shortest);
+    EXPECT_EQ(statics.most_iterations, integrator.most_iterations);
+    EXPECT_EQ(statics.solver, integrator.solver);
     EXPECT_EQ(read.run.checkpoint, RunOptions{}.checkpoint);
     EXPECT_EQ(read.run.mass_damping, RunOptions{}.mass_damping);
     EXPECT_EQ(read.output.fields, OutputOptions{}.fields);
