@@ -30,6 +30,7 @@ public:
         void validate() const;
     };
     struct Counts {
+        std::size_t evaluations = 0;     ///< of forces
         std::size_t iterations = 0;      ///< of Newton's method
         std::size_t factorisations = 0;  ///< one for the first iterate of a step, one for each iteration
     };

@@ -181,6 +181,23 @@ TEST(QuasiStatic, PrescribedStretch_IsUniformAndStoresItsWork) {
     EXPECT_GT(stored, 1e5);
 }
 
+TEST(QuasiStatic, EverythingPrescribed_FollowsTheMotion) {
+    Mesh mesh = test::rectangle(false, 1, 1, {1, 1});
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.n_nodes()); ++node)
+        mesh.node_sets["all"].push_back(node);
+    test::SolidDescription what;
+    what.boundaries = {held("all", Formula("0.1*x"), Formula("-0.05*y*y"))};
+    const test::Solid solid = test::make_solid(std::move(mesh), what);
+    QuasiStatic integrator({});
+    const Solution found = run(*solid.system, integrator);
+    ASSERT_EQ(integrator.reactions().size(), found.state.u.size());
+    for (std::size_t node = 0; node < solid.mesh.n_nodes(); ++node) {
+        const auto& [x, y] = solid.mesh.nodes[node];
+        EXPECT_DOUBLE_EQ(found.state.u[2 * node], 0.1 * x);
+        EXPECT_DOUBLE_EQ(found.state.u[2 * node + 1], -0.05 * y * y);
+    }
+}
+
 TEST(QuasiStatic, LoadInOneStepOrMany_SameEquilibrium) {
     const test::Solid solid = test::distorted_solid(true, sheared(1e8));
     QuasiStatic one({.tolerance = 1e-11}), many({.tolerance = 1e-11, .step = 0.05});
