@@ -201,7 +201,7 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
         } catch (...) {
             if (n_steps == 1) throw;
             synchronise(system, state, dt_before);  // what went wrong will again when it is the first step
-            return {state.t, dt_, 0, n_steps, n_steps - 1};
+            return {state.t, dt_, 0, n_steps + 1, n_steps - 1};
         }
         ++steps_since_bound_;
         const bool seen = n_steps == most || !(next_.t < std::min(t_look, t_stop));

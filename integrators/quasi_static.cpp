@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
+#include <stdexcept>
 
 #include "base/errors.hpp"
 
@@ -22,7 +24,8 @@ struct QuasiStatic::Problem {
     QuasiStatic& self;
     const SemiDiscrete& system;
     const State& state;
-    std::string failure;  ///< of the last evaluation that failed
+    std::string failure = {};               ///< of the last evaluation that failed
+    std::exception_ptr unrecoverable = {};  ///< what no other step would cure
 
     Trial trial() const { return {self.next_.t, self.next_.last_event, self.next_.u, self.next_.v, {}}; }
 
@@ -35,8 +38,8 @@ struct QuasiStatic::Problem {
         } catch (const RecoverableError& error) {
             failure = error.what();
             return 1;
-        } catch (const std::exception& error) {
-            failure = error.what();
+        } catch (...) {
+            unrecoverable = std::current_exception();
             return -1;
         }
     }
@@ -107,22 +110,25 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
 
     kinsol_.reset(KINCreate(context_));
     void* kinsol = kinsol_.get();
-    KINInit(kinsol, Problem::residual, unknowns_.get());
+    const auto check = [](int flag, const char* call) {
+        if (flag != KIN_SUCCESS) throw std::runtime_error(fmt::format("SUNDIALS: {} answers {}", call, flag));
+    };
+    check(KINInit(kinsol, Problem::residual, unknowns_.get()), "KINInit");
     KINSetErrFile(kinsol, nullptr);  // what went wrong is told by return values
-    KINSetLinearSolver(kinsol, linear_->get(), matrix_->get());
-    KINSetJacFn(kinsol, Problem::jacobian);
-    KINSetMaxSetupCalls(kinsol, 1);  // a new tangent in every iteration
-    KINSetNumMaxIters(kinsol, options_.most_iterations);
-    KINSetFuncNormTol(kinsol, options_.tolerance);
-    KINSetScaledStepTol(kinsol, 1e-14);
+    check(KINSetLinearSolver(kinsol, linear_->get(), matrix_->get()), "KINSetLinearSolver");
+    check(KINSetJacFn(kinsol, Problem::jacobian), "KINSetJacFn");
+    check(KINSetMaxSetupCalls(kinsol, 1), "KINSetMaxSetupCalls");  // a new tangent in every iteration
+    check(KINSetNumMaxIters(kinsol, options_.most_iterations), "KINSetNumMaxIters");
+    check(KINSetFuncNormTol(kinsol, options_.tolerance), "KINSetFuncNormTol");
+    check(KINSetScaledStepTol(kinsol, 1e-14), "KINSetScaledStepTol");
     // no limit to a step: a displacement of a million edges is no solution anyway
-    KINSetMaxNewtonStep(kinsol, 1e6 * std::sqrt(static_cast<double>(std::max<std::size_t>(free_->n(), 1))));
+    check(KINSetMaxNewtonStep(kinsol, 1e6 * std::sqrt(static_cast<double>(free_->n()))), "KINSetMaxNewtonStep");
     N_VConst(1 / system.smallest_length(), unknown_scale_.get());
 }
 
 void QuasiStatic::start(const SemiDiscrete& system, State& state, StartReason why) {
     if (why != StartReason::reinitialise) allocate(system);
-    if (why == StartReason::fresh) dt_ = options_.step;
+    if (why == StartReason::fresh) dt_ = options_.step, first_dt_ = 0;
     std::ranges::fill(state.v, 0.0);
     system.force(state, Trial::of(state), f_);
     for (std::size_t k = 0; k < reactions_.size(); ++k) reactions_[k] = -f_[system.constraints()[k].dof];
@@ -152,7 +158,8 @@ StepReport QuasiStatic::advance(const SemiDiscrete& system, State& state, double
                                 state.t, report.dt, error.what()));
         }
     }
-    if (counts_.iterations - iterations_before <= few_iterations) dt_ = 2 * report.dt;
+    if (counts_.iterations - iterations_before <= few_iterations)
+        dt_ = std::max(dt_, 2 * report.dt);  // a remainder before a stop may be short
 
     ++counts_.evaluations;
     system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, next_.z, next_.history);
@@ -208,7 +215,7 @@ void QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
         return largest;
     };
     double largest = largest_of(f_);  // supports, and loads out of balance before the step
-    Problem problem{*this, system, state, {}};
+    Problem problem{*this, system, state};
     free_->put(values_of(unknowns_.get()), next_.u);
     system.force(state, problem.trial(), f_);
     ++counts_.evaluations;
@@ -219,24 +226,29 @@ void QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     KINSetUserData(kinsol_.get(), &problem);
     const int flag = KINSol(kinsol_.get(), unknowns_.get(), KIN_LINESEARCH, unknown_scale_.get(), force_scale_.get());
     KINSetUserData(kinsol_.get(), nullptr);
+    if (problem.unrecoverable) std::rethrow_exception(problem.unrecoverable);
+    linear_->rethrow_unrecoverable();
     long iterations = 0;
-    double norm = 0;
     KINGetNumNonlinSolvIters(kinsol_.get(), &iterations);
-    KINGetFuncNorm(kinsol_.get(), &norm);
     counts_.iterations += static_cast<std::size_t>(std::max(iterations, 0L));
-    // A step below round-off is the end as well, if what is left is near the tolerance.
-    constexpr double near = 10;
-    const bool stalled_near = flag == KIN_STEP_LT_STPTOL && norm <= near * options_.tolerance;
-    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK || stalled_near) {
-        free_->put(values_of(unknowns_.get()), next_.u);
-        return;
-    }
+    free_->put(values_of(unknowns_.get()), next_.u);
+    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return;
+
     const std::unique_ptr<char, void (*)(void*)> name(KINGetReturnFlagName(flag), std::free);
-    const std::string why = !linear_->failure().empty() ? linear_->failure()
-                            : !problem.failure.empty()  ? problem.failure
-                                                        : std::string(name.get());
+    const bool linear_failed = flag == KIN_LSETUP_FAIL || flag == KIN_LSOLVE_FAIL;
+    const bool force_failed =
+        flag == KIN_SYSFUNC_FAIL || flag == KIN_FIRST_SYSFUNC_ERR || flag == KIN_REPTD_SYSFUNC_ERR;
+    if (linear_failed && !linear_->failure().empty()) throw RecoverableError(linear_->failure());
+    if (force_failed && !problem.failure.empty()) throw RecoverableError(problem.failure);
+    // Where no step makes the forces smaller they have come to round-off: the end as well, if near the tolerance.
+    system.force(state, problem.trial(), f_);
+    ++counts_.evaluations;
+    free_->take(f_, right_);
+    const double left = largest_of(right_) / largest;
+    constexpr double near = 10;
+    if ((flag == KIN_STEP_LT_STPTOL || flag == KIN_LINESEARCH_NONCONV) && left <= near * options_.tolerance) return;
     throw RecoverableError(
-        fmt::format("{} after {} iterations, {:.3g} of the forces out of balance", why, iterations, norm));
+        fmt::format("{} after {} iterations, {:.3g} of the forces out of balance", name.get(), iterations, left));
 }
 
 IntegratorMemory QuasiStatic::save() const { return {{"reactions", reactions_}, {"step", {dt_, first_dt_}}}; }

@@ -55,8 +55,8 @@ int SundialsSolver::setup(SUNLinearSolver self, SUNMatrix) {
     } catch (const RecoverableError& error) {
         solver.failure_ = error.what();
         return 1;
-    } catch (const std::exception& error) {
-        solver.failure_ = error.what();
+    } catch (...) {
+        solver.unrecoverable_ = std::current_exception();
         return -1;
     }
 }
@@ -65,8 +65,8 @@ int SundialsSolver::solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector 
     try {
         static_cast<SundialsSolver*>(self->content)->solver_.solve(values_of(b), values_of(x));
         return 0;
-    } catch (const std::exception& error) {
-        static_cast<SundialsSolver*>(self->content)->failure_ = error.what();
+    } catch (...) {
+        static_cast<SundialsSolver*>(self->content)->unrecoverable_ = std::current_exception();
         return -1;
     }
 }

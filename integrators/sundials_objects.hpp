@@ -6,9 +6,12 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include <exception>
 #include <memory>
+#include <new>
 #include <span>
 #include <sundials/sundials_context.hpp>
+#include <utility>
 #include <vector>
 
 #include "linear/linear_solver.hpp"
@@ -25,7 +28,9 @@ struct VectorDeleter {
 using OwnedVector = std::unique_ptr<_generic_N_Vector, VectorDeleter>;
 
 inline OwnedVector new_vector(std::size_t n, SUNContext context) {
-    return OwnedVector(N_VNew_Serial(static_cast<sunindextype>(n), context));
+    OwnedVector vector(N_VNew_Serial(static_cast<sunindextype>(n), context));
+    if (!vector) throw std::bad_alloc();
+    return vector;
 }
 
 /// A matrix in compressed rows as a SUNMatrix: SUNDIALS hands it on, and multiplies with it.
@@ -59,6 +64,10 @@ public:
     SUNLinearSolver get() const { return linear_solver_; }
     /// Why the last factorisation failed; empty if it did not.
     const std::string& failure() const { return failure_; }
+    /// Throws what no other matrix would cure, once SUNDIALS has returned.
+    void rethrow_unrecoverable() {
+        if (const auto error = std::exchange(unrecoverable_, nullptr)) std::rethrow_exception(error);
+    }
 
 private:
     static int setup(SUNLinearSolver self, SUNMatrix);
@@ -68,6 +77,7 @@ private:
     SundialsMatrix& matrix_;
     SUNLinearSolver linear_solver_;
     std::string failure_;
+    std::exception_ptr unrecoverable_;
 };
 
 }  // namespace gneiss

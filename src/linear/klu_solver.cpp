@@ -31,10 +31,12 @@ public:
     void factorise(std::span<const double> values) override {
         auto* a = const_cast<double*>(values.data());
         if (numeric_ != nullptr) {
-            // the old pivots serve as long as the smallest of them does not vanish beside the largest
-            constexpr double vanishing = 1e-12;
-            const bool done = klu_l_refactor(starts(), columns(), a, symbolic_, numeric_, &common_) != 0;
-            if (done && klu_l_rcond(symbolic_, numeric_, &common_) && common_.rcond > vanishing) return;
+            // the old pivots serve as long as none vanishes and elimination does not blow the entries up
+            constexpr double vanishing = 1e-12, growth = 1e-6;
+            if (klu_l_refactor(starts(), columns(), a, symbolic_, numeric_, &common_) &&
+                klu_l_rcond(symbolic_, numeric_, &common_) && common_.rcond > vanishing &&
+                klu_l_rgrowth(starts(), columns(), a, symbolic_, numeric_, &common_) && common_.rgrowth > growth)
+                return;
             klu_l_free_numeric(&numeric_, &common_);
         }
         numeric_ = klu_l_factor(starts(), columns(), a, symbolic_, &common_);

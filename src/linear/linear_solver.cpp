@@ -17,17 +17,20 @@ public:
     std::string name() const override { return "automatic"; }
     void analyse(const SparsePattern& pattern) override {
         pattern_ = pattern;
-        definite_->analyse(pattern);
+        last_ = nullptr;
         general_.reset();
+        definite_->analyse(pattern);
     }
     void factorise(std::span<const double> values) override {
+        last_ = nullptr;
         try {
             definite_->factorise(values);
             last_ = definite_.get();
         } catch (const NotPositiveDefinite&) {
             if (!general_) {
-                general_ = make_umfpack();
-                general_->analyse(pattern_);
+                auto general = make_umfpack();
+                general->analyse(pattern_);
+                general_ = std::move(general);
             }
             general_->factorise(values);
             last_ = general_.get();
