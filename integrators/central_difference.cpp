@@ -428,12 +428,8 @@ IntegratorMemory CentralDifference::save() const {
 
 void CentralDifference::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
     allocate(system);
-    const auto take = [&memory](const char* name, std::size_t size) -> const std::vector<double>& {
-        const auto found = memory.find(name);
-        if (found == memory.end() || found->second.size() != size)
-            throw InputError("checkpoint",
-                             fmt::format("central_difference: `{}` is missing or has not {} values", name, size));
-        return found->second;
+    const auto take = [&](const char* entry, std::size_t size) -> const std::vector<double>& {
+        return remembered(memory, name(), entry, size);
     };
     a_ = take("acceleration", a_.size());
     net_ = take("net_force", net_.size());

@@ -255,12 +255,8 @@ IntegratorMemory QuasiStatic::save() const { return {{"reactions", reactions_}, 
 
 void QuasiStatic::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
     allocate(system);
-    const auto take = [&memory](const char* name, std::size_t size) -> const std::vector<double>& {
-        const auto found = memory.find(name);
-        if (found == memory.end() || found->second.size() != size)
-            throw InputError("checkpoint",
-                             fmt::format("quasi_static: `{}` is missing or has not {} values", name, size));
-        return found->second;
+    const auto take = [&](const char* entry, std::size_t size) -> const std::vector<double>& {
+        return remembered(memory, name(), entry, size);
     };
     reactions_ = take("reactions", reactions_.size());
     dt_ = take("step", 2)[0];

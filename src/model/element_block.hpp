@@ -70,6 +70,11 @@ public:
     /// Nodes of the elements, shape (packs, n_nodes, pack_width); lanes behind the last element repeat it, without
     /// volume.
     virtual std::span<const std::int32_t> nodes() const = 0;
+    /// Those of packs [first, last).
+    std::span<const std::int32_t> nodes_of_packs(std::size_t first, std::size_t last) const {
+        const std::size_t stride = static_cast<std::size_t>(n_nodes()) * pack_width;
+        return nodes().subspan(first * stride, (last - first) * stride);
+    }
     /// The same as positions among the nodes of a chunk, set by the assembly: 16 bits that stay in the nearest cache.
     virtual std::span<PairBytes> local_nodes() = 0;
 
@@ -123,5 +128,13 @@ public:
     virtual double axis_angle(std::size_t local) const = 0;
     virtual double density() const = 0;
 };
+
+/// Packs [first, last) of a block.
+struct PackRange {
+    std::size_t block, first, last;
+};
+
+/// All packs of all blocks, cut into ranges of about n_sub_triangles: what a thread takes at a time.
+std::vector<PackRange> pack_ranges(std::span<const std::unique_ptr<ElementBlock>> blocks, std::size_t n_sub_triangles);
 
 }  // namespace gneiss

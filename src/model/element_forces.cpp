@@ -31,10 +31,8 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
         const ElementBlock& block = *blocks_[b];
         z_offset_.push_back(z_offset_.back() + block.n_internal());
         history_offset_.push_back(history_offset_.back() + block.n_history());
-        const std::size_t step = chunk_size / (static_cast<std::size_t>(block.n_sub_triangles()) * pack_width);
-        for (std::size_t first = 0; first < block.n_packs(); first += step)
-            chunks_.push_back({b, first, std::min(first + step, block.n_packs())});
     }
+    for (const PackRange& range : pack_ranges(blocks_, chunk_size)) chunks_.push_back({range});
     inverted_.resize(chunks_.size());
     sums_.resize(chunks_.size());
     rates_.resize(chunks_.size());

@@ -42,8 +42,7 @@ public:
     ElementBlock::Evaluation evaluation(std::size_t block, const State& accepted, const Trial& trial) const;
 
 private:
-    struct Chunk {
-        std::size_t block, first, last;  ///< packs [first, last) of a block
+    struct Chunk : PackRange {
         // its nodes in chunk_nodes_: first those that no other chunk touches, then the shared ones, with slots
         std::size_t first_node = 0, first_shared = 0, last_node = 0;
         std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_

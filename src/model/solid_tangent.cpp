@@ -61,20 +61,12 @@ void SolidTangent::plan_pattern() {
 }
 
 void SolidTangent::plan_chunks() {
-    std::vector<Chunk> chunks;
-    for (std::size_t b = 0; b < elements_.blocks().size(); ++b) {
-        const ElementBlock& block = *elements_.blocks()[b];
-        const std::size_t step = chunk_size / (static_cast<std::size_t>(block.n_sub_triangles()) * pack_width);
-        for (std::size_t first = 0; first < block.n_packs(); first += step)
-            chunks.push_back({b, first, std::min(first + step, block.n_packs())});
-    }
+    const std::vector<PackRange> chunks = pack_ranges(elements_.blocks(), chunk_size);
     // the lowest colour that no neighbour has
     std::vector<std::uint64_t> colours_at(row_lengths_.size(), 0);  // bits, of each node
     std::vector<int> colour_of;
-    for (const Chunk& chunk : chunks) {
-        const ElementBlock& block = *elements_.blocks()[chunk.block];
-        const std::size_t stride = static_cast<std::size_t>(block.n_nodes()) * pack_width;
-        const auto nodes = block.nodes().subspan(chunk.first * stride, (chunk.last - chunk.first) * stride);
+    for (const PackRange& chunk : chunks) {
+        const auto nodes = elements_.blocks()[chunk.block]->nodes_of_packs(chunk.first, chunk.last);
         std::uint64_t taken = 0;
         for (const std::int32_t node : nodes) taken |= colours_at[static_cast<std::size_t>(node)];
         const int colour = std::countr_one(taken);
@@ -154,7 +146,7 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
         const auto last = static_cast<std::ptrdiff_t>(colour_starts_[colour + 1]);
 #pragma omp parallel for schedule(static)
         for (std::ptrdiff_t c = first; c < last; ++c) {
-            const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+            const PackRange& chunk = chunks_[static_cast<std::size_t>(c)];
             elements_.blocks()[chunk.block]->add_tangent(
                 chunk.first, chunk.last, elements_.evaluation(chunk.block, accepted, trial), -factors.stiffness,
                 -factors.velocity, {blocks_[chunk.block].data(), row_lengths_.data()}, values.data());

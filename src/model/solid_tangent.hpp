@@ -28,9 +28,6 @@ public:
                   std::span<double> values) const override;
 
 private:
-    struct Chunk {
-        std::size_t block, first, last;  ///< packs [first, last) of a block
-    };
     void plan_pattern();
     void plan_chunks();
     void plan_places();
@@ -46,7 +43,7 @@ private:
     std::vector<std::int64_t> row_starts_, columns_;
     std::vector<std::uint32_t> row_lengths_;          ///< of the rows of a node
     std::vector<std::vector<std::uint32_t>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
-    std::vector<Chunk> chunks_;                       ///< by colour
+    std::vector<PackRange> chunks_;                   ///< by colour
     std::vector<std::size_t> colour_starts_;          ///< in chunks_
     std::vector<std::uint32_t> diagonal_;             ///< place of each node's own 2 x 2 block
     std::vector<std::vector<std::uint32_t>> term_places_;

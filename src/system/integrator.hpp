@@ -30,6 +30,11 @@ struct StepReport {
 /// An integrator's own memory, by name: saved in checkpoints beside the state.
 using IntegratorMemory = std::map<std::string, std::vector<double>>;
 
+/// @param size  that the entry must have
+/// @throws InputError naming the integrator if the entry is missing or has another size
+const std::vector<double>& remembered(const IntegratorMemory& memory, const std::string& integrator,
+                                      const std::string& entry, std::size_t size);
+
 class Integrator {
 public:
     virtual ~Integrator() = default;

@@ -402,17 +402,9 @@ TEST(CentralDifferenceUnseen, FailureInTheFirstStep_IsReported) {
 // ---------------------------------------------------------------------------------------------------------------
 
 OscillatorModel everything() {
-    OscillatorModel model = chain();
+    OscillatorModel model = without_damping();
     model.damping.mass_proportional = 0.4;
-    model.damping.blocks = {{1, 3, 1, 2}};
-    model.load = [](double t, bool) { return Vector{{3 * std::sin(9 * t), 1, t, -2}}; };
     model.viscosity = 0.01 * model.stiffness;
-    model.maxwell = Matrix{{1, 0, -1, 0}};
-    model.maxwell_stiffness = 5;
-    model.prescribed = {{{1, Constraint::Kind::displacement},
-                         [](double t) { return 0.1 * std::sin(5 * t); },
-                         [](double t) { return 0.5 * std::cos(5 * t); },
-                         [](double t) { return -2.5 * std::sin(5 * t); }}};
     return model;
 }
 
