@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <sundials/sundials_context.hpp>
 #include <utility>
 #include <vector>
@@ -32,6 +33,36 @@ inline OwnedVector new_vector(std::size_t n, SUNContext context) {
     if (!vector) throw std::bad_alloc();
     return vector;
 }
+
+/// Carries exceptions of our functions past the C code that calls them.
+class CallbackGuard {
+public:
+    /// What SUNDIALS is to know of an exception of body(): 1, try again elsewhere; -1, give up.
+    template <class Body>
+    int operator()(Body body) {
+        try {
+            body();
+            return 0;
+        } catch (const RecoverableError& error) {
+            failure_ = error.what();
+            return 1;
+        } catch (...) {
+            unrecoverable_ = std::current_exception();
+            return -1;
+        }
+    }
+    /// What the last recoverable failure said; empty if there was none.
+    const std::string& failure() const { return failure_; }
+    void forget() { failure_.clear(); }
+    /// Throws what no other step would cure, once SUNDIALS has returned.
+    void rethrow() {
+        if (const auto error = std::exchange(unrecoverable_, nullptr)) std::rethrow_exception(error);
+    }
+
+private:
+    std::string failure_;
+    std::exception_ptr unrecoverable_;
+};
 
 /// A matrix in compressed rows as a SUNMatrix: SUNDIALS hands it on, and multiplies with it.
 class SundialsMatrix {

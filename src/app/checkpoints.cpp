@@ -26,12 +26,6 @@ std::string layout_fingerprint(const Case& built) {
     return fmt::format("{:016x}", sum);
 }
 
-/// Members of PathEnergies in a fixed order.
-auto members(PathEnergies& path) {
-    return std::array{&path.external_work, &path.support_work, &path.damping,  &path.viscous,
-                      &path.absorbing,     &path.friction,     &path.fracture, &path.viscous_power};
-}
-
 }  // namespace
 
 void save_checkpoint(const std::filesystem::path& path, const std::string& deck_fingerprint, const Case& built,
@@ -48,7 +42,7 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
     checkpoint.set("state.history", state.history);
     PathEnergies energies = state.path;
     Vector values;
-    for (const double* member : members(energies)) values.push_back(*member);
+    for (const double* member : energies.members()) values.push_back(*member);
     checkpoint.set("state.path", values);
     checkpoint.set("integrator", built.integrator->name());
     for (const auto& [name, memory] : built.integrator->save()) checkpoint.set("integrator." + name, memory);
@@ -74,7 +68,7 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
     state.v = checkpoint.get<Vector>("state.v", layout.n_dof);
     state.z = checkpoint.get<Vector>("state.z", layout.n_internal);
     state.history = checkpoint.get<Vector>("state.history", layout.n_history);
-    const auto targets = members(state.path);
+    const auto targets = state.path.members();
     const Vector& values = checkpoint.get<Vector>("state.path", targets.size());
     for (std::size_t k = 0; k < targets.size(); ++k) *targets[k] = values[k];
 

@@ -17,12 +17,12 @@ public:
     }
     Klu(const Klu&) = delete;
     Klu& operator=(const Klu&) = delete;
-    ~Klu() override { forget(); }
+    ~Klu() override { free_all(); }
 
     std::string name() const override { return "klu"; }
 
     void analyse(const SparsePattern& pattern) override {
-        forget();
+        free_all();
         pattern_ = pattern;
         symbolic_ = klu_l_analyze(static_cast<SuiteSparse_long>(pattern.n()), starts(), columns(), &common_);
         check("its pattern");
@@ -50,6 +50,8 @@ public:
         klu_l_tsolve(symbolic_, numeric_, static_cast<SuiteSparse_long>(pattern_.n()), 1, x.data(), &common_);
     }
 
+    void forget() override { klu_l_free_numeric(&numeric_, &common_); }
+
     std::size_t factor_bytes() const override {
         const auto entries = static_cast<std::size_t>(numeric_->lnz + numeric_->unz);
         return entries * (sizeof(double) + sizeof(SuiteSparse_long)) + pattern_.n() * 10 * sizeof(double);
@@ -64,8 +66,8 @@ private:
         klu_l_free_numeric(&numeric_, &common_);
         throw SingularMatrix("the matrix is singular: " + where);
     }
-    void forget() {
-        klu_l_free_numeric(&numeric_, &common_);
+    void free_all() {
+        forget();
         klu_l_free_symbolic(&symbolic_, &common_);
     }
 

@@ -51,6 +51,8 @@ public:
     /// Solves A x = b with the last factorisation.
     /// @param[out] x  shape (n); may be b itself
     virtual void solve(std::span<const double> b, std::span<double> x) = 0;
+    /// What later factorisations take over from earlier ones, pivots say, is forgotten.
+    virtual void forget() {}
     /// Memory of the last factorisation, bytes.
     virtual std::size_t factor_bytes() const = 0;
 };

@@ -79,6 +79,8 @@ public:
     virtual std::span<PairBytes> local_nodes() = 0;
 
     virtual void initial_memory(double* z, double* history) const = 0;
+    /// SemiDiscrete::internal_weights() of the block's own z.
+    virtual void internal_weights(double* weights) const = 0;
     virtual void add_mass(std::span<double> mass) const = 0;
 
     /// Pairs of the nodes of a chunk, by local_nodes().

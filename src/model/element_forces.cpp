@@ -109,6 +109,10 @@ void ElementForces::initial_memory(std::span<double> z, std::span<double> histor
         blocks_[b]->initial_memory(z.data() + z_offset_[b], history.data() + history_offset_[b]);
 }
 
+void ElementForces::internal_weights(std::span<double> weights) const {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) blocks_[b]->internal_weights(weights.data() + z_offset_[b]);
+}
+
 ElementBlock::Evaluation ElementForces::evaluation(std::size_t block, const State& accepted, const Trial& trial) const {
     ElementBlock::Evaluation at;
     at.u = trial.u.data();

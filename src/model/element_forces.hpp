@@ -34,6 +34,7 @@ public:
     /// @throws RecoverableError on an inverted element
     void force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z = {},
                std::span<double> history = {}) const;
+    void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;
 
     ElementBlock::Sums energies(const State& accepted, const Trial& trial) const;

@@ -1,5 +1,6 @@
 #include "model/solid_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -57,6 +58,11 @@ void SolidSystem::force(const State& accepted, const Trial& trial, std::span<dou
 void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                    std::span<double> history) const {
     elements_.force(accepted, trial, f, z, history);
+    for (const auto& term : terms_) term->add_force(trial, f);
+}
+
+void SolidSystem::external_force(const Trial& trial, std::span<double> f) const {
+    std::ranges::fill(f, 0.0);
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 

@@ -35,7 +35,9 @@ public:
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override;
     void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                           std::span<double> history) const override;
+    void external_force(const Trial& trial, std::span<double> f) const override;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
+    void internal_weights(std::span<double> weights) const override { elements_.internal_weights(weights); }
     double smallest_length() const override { return smallest_edge_; }
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;

@@ -39,6 +39,7 @@ public:
     std::span<PairBytes> local_nodes() override { return local_nodes_; }
 
     void initial_memory(double* z, double* history) const override;
+    void internal_weights(double* weights) const override;
     void add_mass(std::span<double> mass) const override;
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
@@ -201,6 +202,16 @@ void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* hi
                     history[pack * history_stride + (s * Law::n_history + k) * pack_width + lane] = updated.history[k];
             }
         }
+    }
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::internal_weights(double* weights) const {
+    if constexpr (Law::n_internal > 0) {
+        // the last of a law without stored energy is its accumulated stress power
+        constexpr std::size_t counted = Law::has_stored_energy ? Law::n_internal : Law::n_internal - 1;
+        for (std::size_t k = 0; k < n_internal(); ++k)
+            weights[k] = k / pack_width % Law::n_internal < counted ? 1.0 : 0.0;
     }
 }
 

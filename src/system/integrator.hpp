@@ -64,6 +64,12 @@ public:
     /// load() takes the place of start() when a run goes on from a checkpoint: the run then has the same bits as one
     /// that was never interrupted.
     virtual IntegratorMemory save() const = 0;
+    /// Drops what save() leaves out (the past of a multistep method, a matrix that serves for several steps). Called
+    /// where a checkpoint is saved, so that the run goes on from there as a resumed one does.
+    virtual void forget(const SemiDiscrete& system, State& state) {
+        (void)system;
+        (void)state;
+    }
     virtual void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) = 0;
 };
 

@@ -87,9 +87,17 @@ public:
     virtual void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                   std::span<double> history) const = 0;
 
-    /// z' = g(t, u, v, z) at the trial's own z.
+    /// The part of f that additive schemes may leave to their explicit half: what acts from outside and is not stiff.
+    /// @param[out] f  overwritten, N, shape (n_dof)
+    virtual void external_force(const Trial& trial, std::span<double> f) const = 0;
+
+    /// z' = g(t, u, v, z) at the trial's own z. Linear in v but for a part that does not depend on it, as f is in z.
     /// @param[out] rate  overwritten, shape (n_internal)
     virtual void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const = 0;
+
+    /// Which internal variables forces depend on: 1, or 0 for what is only counted, as accumulated stress power is.
+    /// @param[out] weights  overwritten, shape (n_internal)
+    virtual void internal_weights(std::span<double> weights) const = 0;
 
     /// A length that displacements can be measured against, m: the shortest edge. Scales of differences and tolerances.
     virtual double smallest_length() const = 0;

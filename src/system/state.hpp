@@ -1,6 +1,7 @@
 #pragma once
 // The state of a semi-discrete system, and a trial state in which its forces can be evaluated.
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -21,6 +22,11 @@ struct PathEnergies {
     double viscous_power = 0;  ///< W, rate of `viscous` at the last accepted state
 
     friend bool operator==(const PathEnergies&, const PathEnergies&) = default;
+
+    /// All of them in a fixed order.
+    std::array<double*, 8> members() {
+        return {&external_work, &support_work, &damping, &viscous, &absorbing, &friction, &fracture, &viscous_power};
+    }
 };
 
 /// The last accepted state. Evaluations never change it; integrators and events do.

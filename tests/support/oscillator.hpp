@@ -54,12 +54,13 @@ struct OscillatorModel {
     double relaxation_time = 1;                                    ///< tau, s
     std::vector<PrescribedMotion> prescribed;                      ///< by ascending degree of freedom
     Vector initial_u, initial_v;                                   ///< m, m/s; empty: zero
-    FrequencyBound bound;                                          ///< as reported; omega = 0: from K and D
+    bool has_tangent = true;
+    FrequencyBound bound;  ///< as reported; omega = 0: from K and D
 };
 
 class Oscillator final : public SemiDiscrete {
 public:
-    explicit Oscillator(OscillatorModel model) : model_(std::move(model)) {
+    explicit Oscillator(OscillatorModel model) : model_(std::move(model)), tangent_(*this) {
         for (const auto& motion : model_.prescribed) constraints_.push_back(motion.constraint);
         mass_.assign(model_.mass.data(), model_.mass.data() + model_.mass.size());
         if (std::isfinite(model_.switch_time)) events_.push_back(std::make_unique<Switch>(model_.switch_time));
@@ -78,6 +79,8 @@ public:
     }
     /// One force evaluation fails, once n have succeeded.
     void fail_after(int n) { until_failure_ = n; }
+    /// Every force evaluation fails.
+    void fail_from_now_on() { broken_ = true; }
 
     Layout layout() const override { return {mass_.size(), n_internal(), 0}; }
     State initial_state() const override {
@@ -101,7 +104,7 @@ public:
     bool force_depends_on_velocity() const override { return model_.viscosity.size() > 0; }
 
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override {
-        if (until_failure_-- == 0) throw RecoverableError("told to fail");
+        if (until_failure_-- == 0 || broken_) throw RecoverableError("told to fail");
         const Vector z = trial.z.empty() ? updated(accepted, trial) : vector(trial.z);
         const Vector force =
             applied(trial.t, trial.last_event >= model_.switch_time, vector(trial.u), vector(trial.v), z);
@@ -113,11 +116,19 @@ public:
         const Vector update = updated(accepted, trial);
         std::copy(update.data(), update.data() + update.size(), z.begin());
     }
+    void external_force(const Trial& trial, std::span<double> f) const override {
+        std::ranges::fill(f, 0.0);
+        if (!model_.load) return;
+        const Vector load = model_.load(trial.t, trial.last_event >= model_.switch_time);
+        std::copy(load.data(), load.data() + load.size(), f.begin());
+    }
+    void internal_weights(std::span<double> weights) const override { std::ranges::fill(weights, 1.0); }
     void internal_rate(const State&, const Trial& trial, std::span<double> rate) const override {
         const Vector z_rate = maxwell_rate(vector(trial.v), vector(trial.z));
         std::copy(z_rate.data(), z_rate.data() + z_rate.size(), rate.begin());
     }
     double smallest_length() const override { return 1; }
+    const Tangent* tangent() const override { return model_.has_tangent ? &tangent_ : nullptr; }
     FrequencyBound frequency_bound(const State&) const override { return model_.bound; }
     StoredEnergies stored_energies(const State& state) const override {
         StoredEnergies energies;
@@ -165,15 +176,47 @@ public:
     }
 
 private:
+    /// As a full matrix in compressed rows.
+    class DenseTangent final : public Tangent {
+    public:
+        explicit DenseTangent(const Oscillator& system) : system_(system) {
+            const auto n = system.model().mass.size();
+            for (Eigen::Index row = 0; row <= n; ++row) row_starts_.push_back(row * n);
+            for (Eigen::Index k = 0; k < n * n; ++k) columns_.push_back(k % n);
+        }
+        bool symmetric() const override { return true; }
+        std::span<const std::int64_t> row_starts() const override { return row_starts_; }
+        std::span<const std::int64_t> columns() const override { return columns_; }
+        void assemble(const State& accepted, const Trial& trial, const Factors& factors,
+                      std::span<double> values) const override {
+            const OscillatorModel& model = system_.model();
+            Matrix sum = factors.mass * Matrix(model.mass.asDiagonal()) + factors.damping * system_.nodal_damping();
+            sum += factors.stiffness * model.stiffness;
+            if (trial.z.empty() && model.maxwell.rows() > 0)
+                sum += factors.stiffness * system_.update_stiffness(trial.t - accepted.t) * model.maxwell.transpose() *
+                       model.maxwell;
+            if (model.viscosity.size() > 0) sum += factors.velocity * model.viscosity;
+            Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(values.data(), sum.rows(), sum.cols()) = sum;
+        }
+
+    private:
+        const Oscillator& system_;
+        std::vector<std::int64_t> row_starts_, columns_;
+    };
+
     std::size_t n_internal() const { return static_cast<std::size_t>(model_.maxwell.rows()); }
 
-    /// z at the end of a step along which B u grows linearly.
+    /// dz/d(B u) of a step of length dt along which B u grows linearly.
+    double update_stiffness(double dt) const {
+        const double x = dt / model_.relaxation_time;
+        return model_.maxwell_stiffness * (x > 0 ? -std::expm1(-x) / x : 1.0);  // the mean of exp(-s x) over the step
+    }
+    /// z at the end of such a step.
     Vector updated(const State& accepted, const Trial& trial) const {
         if (n_internal() == 0) return {};
-        const double x = (trial.t - accepted.t) / model_.relaxation_time;
-        const double mean = x > 0 ? -std::expm1(-x) / x : 1.0;  // of exp(-s x) over the step
-        return std::exp(-x) * vector(accepted.z) +
-               (model_.maxwell_stiffness * mean) * (model_.maxwell * (vector(trial.u) - vector(accepted.u)));
+        const double dt = trial.t - accepted.t;
+        return std::exp(-dt / model_.relaxation_time) * vector(accepted.z) +
+               update_stiffness(dt) * (model_.maxwell * (vector(trial.u) - vector(accepted.u)));
     }
 
     OscillatorModel model_;
@@ -181,6 +224,8 @@ private:
     std::vector<double> mass_;
     std::vector<std::unique_ptr<Event>> events_;
     mutable int until_failure_ = -1;
+    bool broken_ = false;
+    DenseTangent tangent_;
 };
 
 /// u, v and z of the oscillator at time t by the classic Runge-Kutta method with steps of at most dt that end at the

@@ -260,6 +260,7 @@ TEST(QuasiStatic, SystemWithoutTangent_IsRefused) {
     test::OscillatorModel model;
     model.mass = test::Vector{{1, 1}};
     model.stiffness = test::Matrix::Identity(2, 2);
+    model.has_tangent = false;
     const test::Oscillator system(model);
     QuasiStatic integrator({});
     State state = system.initial_state();

@@ -60,7 +60,9 @@ public:
     void force(const State&, const Trial&, std::span<double>) const override {}
     void force_and_update(const State&, const Trial&, std::span<double>, std::span<double>,
                           std::span<double>) const override {}
+    void external_force(const Trial&, std::span<double>) const override {}
     void internal_rate(const State&, const Trial&, std::span<double>) const override {}
+    void internal_weights(std::span<double>) const override {}
     double smallest_length() const override { return 1; }
     FrequencyBound frequency_bound(const State&) const override { return {1, 0}; }
     StoredEnergies stored_energies(const State&) const override { return {}; }

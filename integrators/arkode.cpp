@@ -1,0 +1,177 @@
+#include "integrators/arkode.hpp"
+
+#include <arkode/arkode_arkstep.h>
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/errors.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr int none = -1;
+
+// knoth_wolke_3_3, of three stages and order 3, has no embedded method
+constexpr std::array tables{
+    RungeKuttaTable{"heun_euler_2_1_2", ARKODE_HEUN_EULER_2_1_2, none},
+    RungeKuttaTable{"knoth_wolke_3_3", ARKODE_KNOTH_WOLKE_3_3, none},
+    RungeKuttaTable{"bogacki_shampine_4_2_3", ARKODE_BOGACKI_SHAMPINE_4_2_3, none},
+    RungeKuttaTable{"zonneveld_5_3_4", ARKODE_ZONNEVELD_5_3_4, none},
+    RungeKuttaTable{"sayfy_aburub_6_3_4", ARKODE_SAYFY_ABURUB_6_3_4, none},
+    RungeKuttaTable{"cash_karp_6_4_5", ARKODE_CASH_KARP_6_4_5, none},
+    RungeKuttaTable{"fehlberg_6_4_5", ARKODE_FEHLBERG_6_4_5, none},
+    RungeKuttaTable{"dormand_prince_7_4_5", ARKODE_DORMAND_PRINCE_7_4_5, none},
+    RungeKuttaTable{"verner_8_5_6", ARKODE_VERNER_8_5_6, none},
+    RungeKuttaTable{"fehlberg_13_7_8", ARKODE_FEHLBERG_13_7_8, none},
+    RungeKuttaTable{"sdirk_2_1_2", none, ARKODE_SDIRK_2_1_2},
+    RungeKuttaTable{"billington_3_3_2", none, ARKODE_BILLINGTON_3_3_2},
+    RungeKuttaTable{"trbdf2_3_3_2", none, ARKODE_TRBDF2_3_3_2},
+    RungeKuttaTable{"kvaerno_4_2_3", none, ARKODE_KVAERNO_4_2_3},
+    RungeKuttaTable{"esdirk324l2sa_4_2_3", none, ARKODE_ESDIRK324L2SA_4_2_3},
+    RungeKuttaTable{"esdirk325l2sa_5_2_3", none, ARKODE_ESDIRK325L2SA_5_2_3},
+    RungeKuttaTable{"esdirk32i5l2sa_5_2_3", none, ARKODE_ESDIRK32I5L2SA_5_2_3},
+    RungeKuttaTable{"cash_5_2_4", none, ARKODE_CASH_5_2_4},
+    RungeKuttaTable{"cash_5_3_4", none, ARKODE_CASH_5_3_4},
+    RungeKuttaTable{"sdirk_5_3_4", none, ARKODE_SDIRK_5_3_4},
+    RungeKuttaTable{"kvaerno_5_3_4", none, ARKODE_KVAERNO_5_3_4},
+    RungeKuttaTable{"esdirk436l2sa_6_3_4", none, ARKODE_ESDIRK436L2SA_6_3_4},
+    RungeKuttaTable{"esdirk43i6l2sa_6_3_4", none, ARKODE_ESDIRK43I6L2SA_6_3_4},
+    RungeKuttaTable{"qesdirk436l2sa_6_3_4", none, ARKODE_QESDIRK436L2SA_6_3_4},
+    RungeKuttaTable{"esdirk437l2sa_7_3_4", none, ARKODE_ESDIRK437L2SA_7_3_4},
+    RungeKuttaTable{"kvaerno_7_4_5", none, ARKODE_KVAERNO_7_4_5},
+    RungeKuttaTable{"esdirk547l2sa_7_4_5", none, ARKODE_ESDIRK547L2SA_7_4_5},
+    RungeKuttaTable{"esdirk547l2sa2_7_4_5", none, ARKODE_ESDIRK547L2SA2_7_4_5},
+    RungeKuttaTable{"ark324l2sa_4_2_3", ARKODE_ARK324L2SA_ERK_4_2_3, ARKODE_ARK324L2SA_DIRK_4_2_3},
+    RungeKuttaTable{"ark436l2sa_6_3_4", ARKODE_ARK436L2SA_ERK_6_3_4, ARKODE_ARK436L2SA_DIRK_6_3_4},
+    RungeKuttaTable{"ark437l2sa_7_3_4", ARKODE_ARK437L2SA_ERK_7_3_4, ARKODE_ARK437L2SA_DIRK_7_3_4},
+    RungeKuttaTable{"ark548l2sa_8_4_5", ARKODE_ARK548L2SA_ERK_8_4_5, ARKODE_ARK548L2SA_DIRK_8_4_5},
+    RungeKuttaTable{"ark548l2sab_8_4_5", ARKODE_ARK548L2SAb_ERK_8_4_5, ARKODE_ARK548L2SAb_DIRK_8_4_5}};
+
+struct TableDeleter {
+    void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
+};
+using OwnedTable = std::unique_ptr<ARKodeButcherTableMem, TableDeleter>;
+
+OwnedTable coefficients(const RungeKuttaTable& table) {
+    return OwnedTable(table.implicit_id >= 0
+                          ? ARKodeButcherTable_LoadDIRK(static_cast<ARKODE_DIRKTableID>(table.implicit_id))
+                          : ARKodeButcherTable_LoadERK(static_cast<ARKODE_ERKTableID>(table.explicit_id)));
+}
+
+const RungeKuttaTable& find_table(const std::string& name) {
+    const auto found = std::ranges::find_if(tables, [&](const RungeKuttaTable& table) { return name == table.name; });
+    if (found != tables.end()) return *found;
+    std::string allowed;
+    for (const RungeKuttaTable& table : tables) allowed += (allowed.empty() ? "" : ", ") + std::string(table.name);
+    throw InputError("integrator.table", fmt::format("given `{}`, must be one of {}", name, allowed));
+}
+
+}  // namespace
+
+std::span<const RungeKuttaTable> runge_kutta_tables() { return tables; }
+
+int RungeKuttaTable::order() const { return coefficients(*this)->q; }
+bool RungeKuttaTable::embedded() const { return coefficients(*this)->p > 0; }
+
+void Arkode::Options::validate() const {
+    std::vector<Problem> problems;
+    check(problems);
+    if (!(dt >= 0 && std::isfinite(dt)))
+        problems.push_back({"integrator.dt", fmt::format("given {} s, must be >= 0 s", dt)});
+    if (dt == 0 && !find_table(table).embedded())
+        problems.push_back(
+            {"integrator.dt",
+             fmt::format("missing: `{}` estimates no error, so that its steps have to be given", table)});
+    if (!problems.empty()) throw InputError(problems);
+}
+
+Arkode::Arkode(const Options& options)
+    : SundialsOde(options, find_table(options.table).kind() != RungeKuttaTable::Kind::explicit_),
+      options_(options),
+      table_(find_table(options.table)) {
+    options_.validate();
+}
+
+void Arkode::Deleter::operator()(void* memory) const { ARKStepFree(&memory); }
+
+auto Arkode::explicit_rates() const -> Rates {
+    if (table_.explicit_id < 0) return nullptr;
+    if (table_.kind() == RungeKuttaTable::Kind::explicit_)
+        return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+            return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::all, dydt);
+        };
+    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+        return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::external, dydt);
+    };
+}
+
+auto Arkode::implicit_rates() const -> Rates {
+    if (table_.implicit_id < 0) return nullptr;
+    if (table_.kind() == RungeKuttaTable::Kind::implicit)
+        return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+            return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::all, dydt);
+        };
+    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+        return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::rest, dydt);
+    };
+}
+
+void Arkode::create(double t) {
+    memory_.reset(ARKStepCreate(explicit_rates(), implicit_rates(), t, y(), context()));
+    void* arkode = memory_.get();
+    if (arkode == nullptr) throw std::bad_alloc();
+    const auto weights = [](N_Vector, N_Vector w, void* self) { return static_cast<Arkode*>(self)->error_weights(w); };
+    const auto newton_matrix = [](realtype at, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, booleantype reuse,
+                                  booleantype* fresh, realtype gamma, void* self, N_Vector, N_Vector, N_Vector) {
+        *fresh = !reuse;
+        return static_cast<Arkode*>(self)->linear_system(at, y, reuse, gamma, 1);
+    };
+    ARKStepSetErrFile(arkode, nullptr);  // what went wrong is told by return values
+    check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
+    check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
+    check(ARKStepSetTableNum(arkode, static_cast<ARKODE_DIRKTableID>(table_.implicit_id),
+                             static_cast<ARKODE_ERKTableID>(table_.explicit_id)),
+          "ARKStepSetTableNum");
+    if (options().longest > 0) check(ARKStepSetMaxStep(arkode, options().longest), "ARKStepSetMaxStep");
+    if (table_.kind() != RungeKuttaTable::Kind::explicit_) {
+        check(ARKStepSetLinearSolver(arkode, newton().linear_solver(), newton().matrix()), "ARKStepSetLinearSolver");
+        check(ARKStepSetLinSysFn(arkode, newton_matrix), "ARKStepSetLinSysFn");
+        check(ARKStepSetMaxNonlinIters(arkode, most_iterations), "ARKStepSetMaxNonlinIters");
+    }
+}
+
+void Arkode::restart(double t) {
+    check(ARKStepReInit(memory_.get(), explicit_rates(), implicit_rates(), t, y()), "ARKStepReInit");
+}
+
+int Arkode::step(double dt, double t_stop, double& t) {
+    void* arkode = memory_.get();
+    if (dt > 0) check(ARKStepSetFixedStep(arkode, dt), "ARKStepSetFixedStep");
+    check(ARKStepSetStopTime(arkode, t_stop), "ARKStepSetStopTime");
+    return ARKStepEvolve(arkode, t_stop, y(), &t, ARK_ONE_STEP);
+}
+
+int Arkode::dense(double t, N_Vector at) { return ARKStepGetDky(memory_.get(), t, 0, at); }
+
+double Arkode::last_step() {
+    double dt = 0;
+    ARKStepGetLastStep(memory_.get(), &dt);
+    return dt;
+}
+
+std::size_t Arkode::failed_trials() {
+    long by_error = 0, by_solver = 0;
+    ARKStepGetNumErrTestFails(memory_.get(), &by_error);
+    ARKStepGetNumStepSolveFails(memory_.get(), &by_solver);
+    return static_cast<std::size_t>(by_error + by_solver);
+}
+
+std::string Arkode::flag_name(int flag) {
+    const std::unique_ptr<char, void (*)(void*)> name(ARKStepGetReturnFlagName(flag), std::free);
+    return name.get();
+}
+
+}  // namespace gneiss

@@ -1,0 +1,62 @@
+#pragma once
+// ARKODE of SUNDIALS: Runge-Kutta methods, explicit, diagonally implicit, and additive pairs of both, by the name of
+// their table  [Reynolds et al., ACM TOMS 49 (2023) 1].
+//
+// Additive pairs leave the external forces to their explicit half and everything else to the implicit one.
+
+#include <span>
+
+#include "integrators/sundials_ode.hpp"
+
+namespace gneiss {
+
+/// A table of coefficients, by SUNDIALS' name in small letters: stages, order of the embedded method, order.
+struct RungeKuttaTable {
+    enum class Kind { explicit_, implicit, additive };
+    const char* name;
+    int explicit_id, implicit_id;  ///< SUNDIALS' numbers; -1: none
+
+    Kind kind() const { return implicit_id < 0 ? Kind::explicit_ : explicit_id < 0 ? Kind::implicit : Kind::additive; }
+    int order() const;
+    bool embedded() const;  ///< has a second method that estimates the error
+};
+
+std::span<const RungeKuttaTable> runge_kutta_tables();
+
+class Arkode final : public SundialsOde {
+public:
+    struct Options : SundialsOde::Options {
+        std::string table = "dormand_prince_7_4_5";
+        double dt = 0;  ///< fixed step, s; 0: from the error estimate
+
+        /// @throws InputError
+        void validate() const;
+    };
+    explicit Arkode(const Options& options);
+
+    std::string name() const override { return "arkode"; }
+
+private:
+    void create(double t) override;
+    void destroy() override { memory_.reset(); }
+    void restart(double t) override;
+    int step(double dt, double t_stop, double& t) override;
+    int dense(double t, N_Vector at) override;
+    double last_step() override;
+    std::size_t failed_trials() override;
+    std::string flag_name(int flag) override;
+    double fixed_step() const override { return options_.dt; }
+    /// Right-hand sides of the explicit and of the implicit half.
+    using Rates = int (*)(double t, N_Vector y, N_Vector dydt, void* self);
+    Rates explicit_rates() const;
+    Rates implicit_rates() const;
+
+    Options options_;
+    const RungeKuttaTable& table_;
+    struct Deleter {
+        void operator()(void* memory) const;
+    };
+    std::unique_ptr<void, Deleter> memory_;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,68 @@
+#include "integrators/first_order_form.hpp"
+
+#include <algorithm>
+
+#include "integrators/mass_and_damping.hpp"
+
+namespace gneiss {
+
+void FirstOrderForm::bind(const SemiDiscrete& system, double omega) {
+    const Layout layout = system.layout();
+    const auto constraints = system.constraints();
+    free_.clear();
+    for (std::size_t dof = 0, k = 0; dof < layout.n_dof; ++dof) {
+        if (k < constraints.size() && constraints[k].dof == dof)
+            ++k;
+        else
+            free_.push_back(dof);
+    }
+    n_internal_ = layout.n_internal;
+    motion_.bind(system, omega);
+    trial_.u.assign(layout.n_dof, 0.0);
+    trial_.v.assign(layout.n_dof, 0.0);
+    trial_.z.assign(layout.n_internal, 0.0);
+    f_.assign(layout.n_dof, 0.0);
+    external_.assign(layout.n_dof, 0.0);
+}
+
+void FirstOrderForm::pack(const State& state, std::span<double> y) const {
+    for (std::size_t i = 0; i < n_free(); ++i) {
+        y[i] = state.u[free_[i]];
+        y[n_free() + i] = state.v[free_[i]];
+    }
+    std::ranges::copy(state.z, y.begin() + static_cast<std::ptrdiff_t>(2 * n_free()));
+}
+
+void FirstOrderForm::unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to) {
+    to.t = t;
+    for (std::size_t i = 0; i < n_free(); ++i) {
+        to.u[free_[i]] = y[i];
+        to.v[free_[i]] = y[n_free() + i];
+    }
+    std::ranges::copy(y.subspan(2 * n_free()), to.z.begin());
+    motion_.evaluate(system, t);
+    motion_.put(system, to.u, to.v);
+}
+
+void FirstOrderForm::rate(const SemiDiscrete& system, const State& accepted, double t, std::span<const double> y,
+                          Part part, std::span<double> dydt) {
+    unpack(system, t, y, trial_);
+    const Trial trial = trial_of(trial_, accepted.last_event);
+    if (part == Part::external) {
+        std::ranges::fill(dydt, 0.0);
+        system.external_force(trial, f_);
+    } else {
+        system.force(accepted, trial, f_);
+        subtract_damping(system, trial_.v, f_);
+        std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(n_free()), n_free(), dydt.begin());
+        if (n_internal_ > 0) system.internal_rate(accepted, trial, dydt.subspan(2 * n_free()));
+    }
+    if (part == Part::rest) {
+        system.external_force(trial, external_);
+        for (std::size_t i = 0; i < f_.size(); ++i) f_[i] -= external_[i];
+    }
+    const auto mass = system.lumped_mass();
+    for (std::size_t i = 0; i < n_free(); ++i) dydt[n_free() + i] = f_[free_[i]] / mass[free_[i]];
+}
+
+}  // namespace gneiss

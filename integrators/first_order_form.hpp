@@ -1,0 +1,50 @@
+#pragma once
+// The semi-discrete system as y' = F(t, y) for solvers of ordinary differential equations: y = (u, v) of the free
+// degrees of freedom, then z. Prescribed motion is eliminated.
+
+#include <span>
+#include <vector>
+
+#include "integrators/prescribed_motion.hpp"
+#include "system/semi_discrete.hpp"
+
+namespace gneiss {
+
+class FirstOrderForm {
+public:
+    /// What of the forces is wanted, for additive schemes.
+    enum class Part { all, external, rest };
+
+    /// @param omega  upper bound of the natural frequencies, rad/s
+    void bind(const SemiDiscrete& system, double omega);
+
+    std::size_t n_free() const { return free_.size(); }
+    std::size_t n_internal() const { return n_internal_; }
+    std::size_t size() const { return 2 * n_free() + n_internal(); }
+    /// Degrees of freedom of the free ones, ascending.
+    std::span<const std::size_t> free() const { return free_; }
+    PrescribedMotion& motion() { return motion_; }
+
+    /// @param[out] y  shape (size())
+    void pack(const State& state, std::span<double> y) const;
+    /// @param[out] to  u, v, z and t
+    void unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to);
+    /// F(t, y), or the part of it that comes from the external forces alone, or the rest.
+    /// @throws RecoverableError if the forces do
+    void rate(const SemiDiscrete& system, const State& accepted, double t, std::span<const double> y, Part part,
+              std::span<double> dydt);
+
+    /// z given where there is one.
+    static Trial trial_of(const State& state, double last_event) {
+        return {state.t, last_event, state.u, state.v, state.z};
+    }
+
+private:
+    std::vector<std::size_t> free_;
+    std::size_t n_internal_ = 0;
+    PrescribedMotion motion_;
+    State trial_;
+    std::vector<double> f_, external_;
+};
+
+}  // namespace gneiss

@@ -1,0 +1,174 @@
+#include "integrators/newton_system.hpp"
+
+#include <algorithm>
+#include <new>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+
+namespace gneiss {
+namespace {
+
+const Tangent& tangent_of(const SemiDiscrete& system) {
+    if (const Tangent* tangent = system.tangent()) return *tangent;
+    throw InputError("integrator", "implicit schemes need tangents, and this system has none");
+}
+
+std::vector<std::size_t> constrained(const SemiDiscrete& system) {
+    std::vector<std::size_t> dofs;
+    for (const Constraint& constraint : system.constraints()) dofs.push_back(constraint.dof);
+    return dofs;
+}
+
+/// y = A x
+void multiply(const SparsePattern& pattern, std::span<const double> values, std::span<const double> x,
+              std::span<double> y) {
+    parallel_ranges(y.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            double sum = 0;
+            for (auto k = static_cast<std::size_t>(pattern.row_starts[row]);
+                 k < static_cast<std::size_t>(pattern.row_starts[row + 1]); ++k)
+                sum += values[k] * x[static_cast<std::size_t>(pattern.columns[k])];
+            y[row] = sum;
+        }
+    });
+}
+
+}  // namespace
+
+NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const std::string& solver,
+                           SUNContext context)
+    : system_(system),
+      form_(form),
+      free_({tangent_of(system).row_starts(), tangent_of(system).columns()}, constrained(system)),
+      solver_(make_linear_solver(solver, tangent_of(system).symmetric())),
+      damped_(system.force_depends_on_velocity() || system.damping().mass_proportional > 0 ||
+              !system.damping().blocks.empty()) {
+    const SparsePattern pattern = free_.pattern();
+    if (free_.n() > 0) solver_->analyse(pattern);
+    const auto mass = system.lumped_mass();
+    for (std::size_t row = 0; row < free_.n(); ++row) {
+        mass_.push_back(mass[form.free()[row]]);
+        const auto begin = pattern.columns.begin();
+        const auto found = std::lower_bound(begin + pattern.row_starts[row], begin + pattern.row_starts[row + 1],
+                                            static_cast<std::int64_t>(row));
+        diagonal_.push_back(static_cast<std::size_t>(found - begin));
+    }
+    const Layout layout = system.layout();
+    full_.resize(tangent_of(system).columns().size());
+    values_.resize(pattern.n_nonzero());
+    right_.resize(free_.n());
+    at_.u.resize(layout.n_dof);
+    at_.v.resize(layout.n_dof);
+    at_.z.resize(layout.n_internal);
+    at_.history.resize(layout.n_history);
+    if (layout.n_internal > 0) {
+        for (auto* values : {&f_, &f_zero_, &v_}) values->assign(layout.n_dof, 0.0);
+        for (auto* values : {&z_, &rate_, &rate_zero_}) values->assign(layout.n_internal, 0.0);
+    }
+
+    matrix_ = SUNMatNewEmpty(context);
+    linear_solver_ = SUNLinSolNewEmpty(context);
+    if (matrix_ == nullptr || linear_solver_ == nullptr) throw std::bad_alloc();
+    matrix_->content = this;
+    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    matrix_->ops->zero = [](SUNMatrix) { return 0; };
+    linear_solver_->content = this;
+    linear_solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    linear_solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+    linear_solver_->ops->initialize = [](SUNLinearSolver) { return 0; };
+    linear_solver_->ops->setup = setup;
+    linear_solver_->ops->solve = solve;
+}
+
+NewtonSystem::~NewtonSystem() {
+    SUNMatFreeEmpty(matrix_);
+    SUNLinSolFreeEmpty(linear_solver_);
+}
+
+void NewtonSystem::take_tangent(const Trial& trial, const Tangent::Factors& factors, std::vector<double>& to) {
+    system_.tangent()->assemble(at_, trial, factors, full_);
+    to.resize(values_.size());
+    free_.take_values(full_, to);
+}
+
+void NewtonSystem::linearise(const State& accepted, double t, std::span<const double> y) {
+    at_.last_event = accepted.last_event;
+    form_.unpack(system_, t, y, at_);
+    if (form_.n_internal() > 0) {
+        // the memory that accepting u would leave, with the stresses of y
+        const Trial updated{t, at_.last_event, at_.u, at_.v, {}};
+        system_.force_and_update(accepted, updated, f_, z_, at_.history);
+        take_tangent(FirstOrderForm::trial_of(at_, at_.last_event), {.stiffness = 1}, given_);
+    } else {
+        at_.history = accepted.history;
+    }
+    const Trial folded{t, at_.last_event, at_.u, at_.v, {}};
+    take_tangent(folded, {.stiffness = 1}, folded_);
+    if (damped_) take_tangent(folded, {.damping = 1, .velocity = 1}, damping_);
+    ++counts_.linearisations;
+}
+
+int NewtonSystem::setup(SUNLinearSolver self, SUNMatrix) {
+    auto& system = *static_cast<NewtonSystem*>(self->content);
+    return system.guard_([&] { system.factorise(); });
+}
+
+void NewtonSystem::factorise() {
+    if (free_.n() == 0) return;
+    const double gamma = gamma_, square = gamma * gamma;
+    parallel_ranges(values_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) values_[k] = square * folded_[k];
+        if (damped_)
+            for (std::size_t k = first; k < last; ++k) values_[k] += gamma * damping_[k];
+    });
+    for (std::size_t row = 0; row < diagonal_.size(); ++row) values_[diagonal_[row]] += mass_[row];
+    solver_->factorise(values_);
+    ++counts_.factorisations;
+}
+
+int NewtonSystem::solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    auto& system = *static_cast<NewtonSystem*>(self->content);
+    return system.guard_([&] { system.solve(values_of(b), values_of(x)); });
+}
+
+void NewtonSystem::solve(std::span<const double> b, std::span<double> x) {
+    const std::size_t n = free_.n();
+    if (x.data() != b.data()) std::ranges::copy(b, x.begin());
+    if (right_scale_ != 1)
+        for (double& value : x) value *= right_scale_;
+    const auto x_u = x.first(n), x_v = x.subspan(n, n), x_z = x.subspan(2 * n);
+    if (n > 0) {
+        multiply(free_.pattern(), form_.n_internal() > 0 ? given_ : folded_, x_u, right_);
+        for (std::size_t i = 0; i < n; ++i) right_[i] = mass_[i] * x_v[i] - gamma_ * right_[i];
+        if (form_.n_internal() > 0) add_internal_forces(x_z);
+        solver_->solve(right_, x_v);
+        for (std::size_t i = 0; i < n; ++i) x_u[i] += gamma_ * x_v[i];
+    }
+    if (form_.n_internal() > 0) internal_changes(x_z, x_v, x_z);
+    ++counts_.solves;
+}
+
+void NewtonSystem::add_internal_forces(std::span<const double> b_z) {
+    std::ranges::fill(z_, 0.0);
+    Trial trial = Trial::of(at_);
+    trial.z = z_;
+    system_.force(at_, trial, f_zero_);
+    std::ranges::copy(b_z, z_.begin());
+    system_.force(at_, trial, f_);
+    const auto free = form_.free();
+    for (std::size_t i = 0; i < free.size(); ++i) right_[i] += gamma_ * (f_[free[i]] - f_zero_[free[i]]);
+}
+
+void NewtonSystem::internal_changes(std::span<const double> b_z, std::span<const double> dv, std::span<double> x_z) {
+    Trial trial = Trial::of(at_);
+    trial.z = at_.z;
+    trial.v = v_;
+    std::ranges::fill(v_, 0.0);
+    system_.internal_rate(at_, trial, rate_zero_);
+    free_.put(dv, v_);
+    system_.internal_rate(at_, trial, rate_);
+    for (std::size_t k = 0; k < x_z.size(); ++k) x_z[k] = b_z[k] + gamma_ * (rate_[k] - rate_zero_[k]);
+}
+
+}  // namespace gneiss

@@ -1,0 +1,217 @@
+#include "integrators/sundials_ode.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/errors.hpp"
+#include "integrators/mass_and_damping.hpp"
+
+namespace gneiss {
+
+void SundialsOde::Options::check(std::vector<Problem>& problems) const {
+    const auto need = [&](bool fine, const char* key, const std::string& message) {
+        if (!fine) problems.push_back({std::string("integrator.") + key, message});
+    };
+    need(rtol > 0 && rtol <= 0.1, "rtol", fmt::format("given {}, must be in (0, 0.1]", rtol));
+    need(longest >= 0 && std::isfinite(longest), "longest", fmt::format("given {} s, must be >= 0 s", longest));
+    const auto scale = [&](double value, const char* key, const char* unit) {
+        need(value >= 0 && std::isfinite(value), key, fmt::format("given {} {}, must be >= 0 {}", value, unit, unit));
+    };
+    scale(scales.displacement, "displacement_scale", "m");
+    scale(scales.velocity, "velocity_scale", "m/s");
+    scale(scales.internal, "stress_scale", "Pa");
+}
+
+SundialsOde::SundialsOde(const Options& options, bool needs_newton)
+    : options_(options), needs_newton_(needs_newton), scales_(options.scales) {}
+
+void SundialsOde::check(int flag, const char* call) {
+    guard_.rethrow();
+    if (flag < 0) throw std::runtime_error(fmt::format("SUNDIALS: {} answers {}", call, flag_name(flag)));
+}
+
+void SundialsOde::allocate(const SemiDiscrete& system) {
+    destroy();
+    newton_.reset();
+    form_.bind(system, omega_);
+    if (needs_newton_) newton_ = std::make_unique<NewtonSystem>(system, form_, options_.solver, context_);
+    y_ = new_vector(form_.size(), context_);
+    middle_y_ = new_vector(form_.size(), context_);
+    const Layout layout = system.layout();
+    for (State* scratch : {&next_, &middle_}) {
+        scratch->u.assign(layout.n_dof, 0.0);
+        scratch->v.assign(layout.n_dof, 0.0);
+        scratch->z.assign(layout.n_internal, 0.0);
+        scratch->history.assign(layout.n_history, 0.0);
+    }
+    f_.assign(layout.n_dof, 0.0);
+    z_.assign(layout.n_internal, 0.0);
+    for (auto* values : {&reactions_before_, &reactions_middle_, &reactions_})
+        values->assign(system.constraints().size(), 0.0);
+}
+
+void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason why) {
+    const bool anew = why != StartReason::reinitialise;
+    if (why == StartReason::fresh) omega_ = system.frequency_bound(state).omega;
+    if (anew) allocate(system);
+    form_.motion().hold(system, state, why);
+    scales_.start(system, state, omega_, form_.motion().velocity());
+    begin(system, state);
+    if (anew) {
+        create(state.t);
+    } else {
+        counts_.rejected += failed_before_;
+        if (newton_) newton_->forget();
+        restart(state.t);
+    }
+    failed_before_ = 0;
+    system.force(state, FirstOrderForm::trial_of(state, state.last_event), f_);
+    form_.motion().evaluate(system, state.t);
+    form_.motion().reactions(system, state.v, f_, reactions_);
+}
+
+void SundialsOde::begin(const SemiDiscrete& system, const State& state) {
+    system_ = &system;
+    accepted_ = &state;
+    form_.motion().step_from(system, state);
+    form_.pack(state, values_of(y_.get()));
+}
+
+StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double t_stop) {
+    system_ = &system;
+    accepted_ = &state;
+    guard_.forget();
+    if (newton_) newton_->guard().forget();
+    form_.motion().step_from(system, state);
+    const std::size_t rates_before = counts_.rates;
+    double dt = 0;
+    if (fixed_step() > 0) {
+        constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
+        const double remaining = t_stop - state.t;
+        dt = remaining / std::max(1.0, std::ceil(remaining / fixed_step() - round_off));
+    }
+    const int flag = step(dt, t_stop, next_.t);
+    guard_.rethrow();
+    if (newton_) newton_->guard().rethrow();
+    if (flag < 0) {
+        const std::string& own = guard_.failure();
+        const std::string why = own.empty() && newton_ ? newton_->guard().failure() : own;
+        throw RecoverableError(fmt::format("{} cannot go on from t = {:.9g} s: {}{}{}", name(), state.t,
+                                           flag_name(flag), why.empty() ? "" : ", ", why));
+    }
+    next_.last_event = state.last_event;
+    finish_step(system, state);
+    std::swap(state, next_);
+    scales_.include(state);
+    ++counts_.steps;
+    StepReport report;
+    report.t = state.t;
+    report.dt = last_step();
+    report.n_rejected = failed_trials() - failed_before_;
+    failed_before_ += report.n_rejected;
+    report.n_force = counts_.rates - rates_before;
+    return report;
+}
+
+void SundialsOde::finish_step(const SemiDiscrete& system, const State& state) {
+    form_.unpack(system, next_.t, values_of(y_.get()), next_);
+    if (next_.history.empty())
+        system.force(state, FirstOrderForm::trial_of(next_, next_.last_event), f_);
+    else
+        system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, z_, next_.history);
+    ++counts_.rates;
+    reactions_before_.swap(reactions_);
+    form_.motion().reactions(system, next_.v, f_, reactions_);
+    add_path_energies(system, state);
+}
+
+/// The trapezoidal rule over the step and over its halves, extrapolated: order 4, so that the ledger does not hide what
+/// a scheme of high order conserves.
+void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& state) {
+    const auto constraints = system.constraints();
+    const auto work = [&](std::span<const double> before, std::span<const double> after, const State& from,
+                          const State& to) {
+        double sum = 0;
+        for (std::size_t k = 0; k < constraints.size(); ++k) {
+            const std::size_t dof = constraints[k].dof;
+            sum += 0.5 * (before[k] + after[k]) * (to.u[dof] - from.u[dof]);
+        }
+        return sum;
+    };
+    system.add_path_energies(state, next_);
+    next_.path.support_work += work(reactions_before_, reactions_, state, next_);
+    PathEnergies whole = next_.path;
+
+    middle_.t = 0.5 * (state.t + next_.t);
+    middle_.last_event = next_.last_event;
+    check(dense(middle_.t, middle_y_.get()), "dense output");
+    form_.unpack(system, middle_.t, values_of(middle_y_.get()), middle_);
+    middle_.history = state.history;
+    system.add_path_energies(state, middle_);
+    if (!constraints.empty()) {
+        system.force(state, FirstOrderForm::trial_of(middle_, middle_.last_event), f_);
+        ++counts_.rates;
+        form_.motion().reactions(system, middle_.v, f_, reactions_middle_);
+        middle_.path.support_work += work(reactions_before_, reactions_middle_, state, middle_);
+    }
+    system.add_path_energies(middle_, next_);
+    next_.path.support_work += work(reactions_middle_, reactions_, middle_, next_);
+    const double power = next_.path.viscous_power;
+    const auto halves = next_.path.members(), once = whole.members();
+    for (std::size_t k = 0; k < halves.size(); ++k) *halves[k] += (*halves[k] - *once[k]) / 3;
+    next_.path.viscous_power = power;
+}
+
+double SundialsOde::kinetic_energy(const SemiDiscrete& system, const State& state) const {
+    return synchronised_kinetic_energy(system, state.v, partial_);
+}
+
+IntegratorMemory SundialsOde::save() const { return {{"omega", {omega_}}, {"scales", scales_.save()}}; }
+
+void SundialsOde::load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) {
+    scales_.load(system, remembered(memory, name(), "scales", 3));
+    omega_ = remembered(memory, name(), "omega", 1)[0];
+    start(system, state, StartReason::resize);
+}
+
+void SundialsOde::forget(const SemiDiscrete& system, State& state) { start(system, state, StartReason::reinitialise); }
+
+SundialsOde::Counts SundialsOde::counts() const {
+    Counts counts = counts_;
+    counts.rejected += failed_before_;
+    if (newton_) {
+        counts.linearisations = newton_->counts().linearisations;
+        counts.factorisations = newton_->counts().factorisations;
+    }
+    return counts;
+}
+
+int SundialsOde::rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector dydt) {
+    return guard_([&] {
+        ++counts_.rates;
+        form_.rate(*system_, *accepted_, t, values_of(y), part, values_of(dydt));
+    });
+}
+
+int SundialsOde::linear_system(double t, N_Vector y, bool reuse, double gamma, double right_scale) {
+    return guard_([&] {
+        if (!reuse) newton_->linearise(*accepted_, t, values_of(y));
+        newton_->set(gamma, right_scale);
+    });
+}
+
+int SundialsOde::error_weights(N_Vector weights) const {
+    const std::span<double> w = values_of(weights);
+    const std::size_t n = form_.n_free();
+    std::fill_n(w.begin(), n, 1 / (options_.rtol * scales_.displacement()));
+    std::fill_n(w.begin() + static_cast<std::ptrdiff_t>(n), n, 1 / (options_.rtol * scales_.velocity()));
+    constexpr double counted_only = 1e-30;  // no error of theirs matters; zero would be divided by
+    const auto internal = scales_.internal_weights();
+    for (std::size_t k = 0; k < form_.n_internal(); ++k)
+        w[2 * n + k] = internal[k] > 0 ? internal[k] / (options_.rtol * scales_.internal()) : counted_only;
+    return 0;
+}
+
+}  // namespace gneiss
