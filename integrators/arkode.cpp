@@ -137,6 +137,9 @@ void Arkode::create(double t) {
           "ARKStepSetTableNum");
     if (options().longest > 0) check(ARKStepSetMaxStep(arkode, options().longest), "ARKStepSetMaxStep");
     if (table_.kind() != RungeKuttaTable::Kind::explicit_) {
+        nonlinear_ = new_newton_iteration();
+        check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
+        trust_no_earlier_rate(nonlinear_.get());
         check(ARKStepSetLinearSolver(arkode, newton().linear_solver(), newton().matrix()), "ARKStepSetLinearSolver");
         check(ARKStepSetLinSysFn(arkode, newton_matrix), "ARKStepSetLinSysFn");
         check(ARKStepSetMaxNonlinIters(arkode, most_iterations), "ARKStepSetMaxNonlinIters");

@@ -56,6 +56,7 @@ private:
     struct Deleter {
         void operator()(void* memory) const;
     };
+    OwnedNonlinearSolver nonlinear_;
     std::unique_ptr<void, Deleter> memory_;
 };
 

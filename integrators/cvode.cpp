@@ -24,7 +24,6 @@ Cvode::Cvode(const Options& options) : SundialsOde(options, options.iteration ==
 }
 
 void Cvode::Deleter::operator()(void* memory) const { CVodeFree(&memory); }
-void Cvode::SolverDeleter::operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
 
 void Cvode::create(double t) {
     const bool bdf = options_.method == Method::bdf;
@@ -46,13 +45,15 @@ void Cvode::create(double t) {
     if (options_.max_order > 0) check(CVodeSetMaxOrd(cvode, options_.max_order), "CVodeSetMaxOrd");
     if (options().longest > 0) check(CVodeSetMaxStep(cvode, options().longest), "CVodeSetMaxStep");
     if (bdf && options_.stability_detection) check(CVodeSetStabLimDet(cvode, SUNTRUE), "CVodeSetStabLimDet");
-    if (options_.iteration == Iteration::newton) {
+    const bool newton_iteration = options_.iteration == Iteration::newton;
+    nonlinear_ =
+        newton_iteration ? new_newton_iteration() : OwnedNonlinearSolver(SUNNonlinSol_FixedPoint(y(), 0, context()));
+    check(CVodeSetNonlinearSolver(cvode, nonlinear_.get()), "CVodeSetNonlinearSolver");
+    if (newton_iteration) {
+        trust_no_earlier_rate(nonlinear_.get());
         check(CVodeSetLinearSolver(cvode, newton().linear_solver(), newton().matrix()), "CVodeSetLinearSolver");
         check(CVodeSetLinSysFn(cvode, newton_matrix), "CVodeSetLinSysFn");
         check(CVodeSetMaxNonlinIters(cvode, most_iterations), "CVodeSetMaxNonlinIters");
-    } else {
-        functional_.reset(SUNNonlinSol_FixedPoint(y(), 0, context()));
-        check(CVodeSetNonlinearSolver(cvode, functional_.get()), "CVodeSetNonlinearSolver");
     }
 }
 

@@ -2,8 +2,6 @@
 // CVODE of SUNDIALS: multistep methods of variable order and step, BDF for stiff systems, Adams for others  [Hindmarsh
 // et al., ACM TOMS 31 (2005) 363].
 
-#include <sundials/sundials_nonlinearsolver.h>
-
 #include "integrators/sundials_ode.hpp"
 
 namespace gneiss {
@@ -41,10 +39,7 @@ private:
     struct Deleter {
         void operator()(void* memory) const;
     };
-    struct SolverDeleter {
-        void operator()(SUNNonlinearSolver solver) const;
-    };
-    std::unique_ptr<_generic_SUNNonlinearSolver, SolverDeleter> functional_;
+    OwnedNonlinearSolver nonlinear_;
     std::unique_ptr<void, Deleter> memory_;
 };
 

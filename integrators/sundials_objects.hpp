@@ -5,6 +5,7 @@
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nonlinearsolver.h>
 
 #include <exception>
 #include <memory>
@@ -33,6 +34,11 @@ inline OwnedVector new_vector(std::size_t n, SUNContext context) {
     if (!vector) throw std::bad_alloc();
     return vector;
 }
+
+struct NonlinearSolverDeleter {
+    void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
+};
+using OwnedNonlinearSolver = std::unique_ptr<_generic_SUNNonlinearSolver, NonlinearSolverDeleter>;
 
 /// Carries exceptions of our functions past the C code that calls them.
 class CallbackGuard {

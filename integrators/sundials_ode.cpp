@@ -1,6 +1,7 @@
 #include "integrators/sundials_ode.hpp"
 
 #include <fmt/format.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -200,6 +201,30 @@ int SundialsOde::linear_system(double t, N_Vector y, bool reuse, double gamma, d
         if (!reuse) newton_->linearise(*accepted_, t, values_of(y));
         newton_->set(gamma, right_scale);
     });
+}
+
+OwnedNonlinearSolver SundialsOde::new_newton_iteration() {
+    OwnedNonlinearSolver solver(SUNNonlinSol_Newton(y(), context_));
+    if (!solver) throw std::bad_alloc();
+    return solver;
+}
+
+void SundialsOde::trust_no_earlier_rate(SUNNonlinearSolver solver) {
+    // Hairer and Wanner, Solving Ordinary Differential Equations II (1996), IV.8: what is left after a correction is at
+    // most rate/(1 - rate) of it
+    const auto test = [](SUNNonlinearSolver nonlinear, N_Vector, N_Vector correction, realtype tolerance,
+                         N_Vector weights, void* self) {
+        double& before = static_cast<SundialsOde*>(self)->correction_before_;
+        const double now = N_VWrmsNorm(correction, weights);
+        int iteration = 0;
+        SUNNonlinSolGetCurIter(nonlinear, &iteration);
+        const double rate = iteration == 0 ? 0.5 : now / before;
+        before = now;
+        if (now == 0 || (rate < 1 && rate / (1 - rate) * now <= tolerance)) return SUN_NLS_SUCCESS;
+        constexpr double diverging = 2;  // as in CVODE
+        return rate > diverging ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
+    };
+    check(SUNNonlinSolSetConvTestFn(solver, test, this), "SUNNonlinSolSetConvTestFn");
 }
 
 int SundialsOde::error_weights(N_Vector weights) const {

@@ -81,6 +81,12 @@ protected:
     int rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector dydt);
     /// Linearises at y unless what there is may serve (`reuse`), for systems of this gamma.
     int linear_system(double t, N_Vector y, bool reuse, double gamma, double right_scale);
+    OwnedNonlinearSolver new_newton_iteration();
+    /// Sets a test of convergence that measures the rate in each system anew. SUNDIALS' own lets it shrink over the
+    /// systems that share a matrix, to next to nothing where the problem is linear; a step that then changes passes
+    /// with an error far above the tolerance. To be called once the solver has been handed over, which sets SUNDIALS'
+    /// test.
+    void trust_no_earlier_rate(SUNNonlinearSolver solver);
     /// One over the tolerances of y, as SUNDIALS' functions for error weights.
     int error_weights(N_Vector weights) const;
 
@@ -106,6 +112,7 @@ private:
     CallbackGuard guard_;
     Counts counts_;
     std::size_t failed_before_ = 0;
+    double correction_before_ = 0;  ///< norm, in Newton's method
     mutable std::vector<double> partial_;
 };
 
