@@ -1,11 +1,11 @@
 #include "app/build_case.hpp"
 
+#include "app/make_integrator.hpp"
+
 #include <fmt/format.h>
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "integrators/central_difference.hpp"
-#include "integrators/quasi_static.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
@@ -39,13 +39,6 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
     return absorbing_blocks(
         mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
         options.solid.thickness);
-}
-
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
-    if (o.type == "quasi_static")
-        return std::make_unique<QuasiStatic>(
-            QuasiStatic::Options{o.tolerance, o.step, o.longest, o.shortest, o.most_iterations, o.solver});
-    return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
 }
 
 /// What is given and has no effect where nothing moves.

@@ -74,9 +74,11 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
     const IntegratorOptions& integrator = built.options.integrator;
+    const bool adapted = integrator.dt == 0 || integrator.adaptive;
     line("step", integrator.type == "quasi_static" ? fmt::format("{:.4g} s of load time, adapted", dt)
-                 : integrator.dt > 0               ? fmt::format("{:.4g} s, fixed", dt)
-                                     : fmt::format("{:.4g} s, {} of the critical step", dt, integrator.safety));
+                 : integrator.type == "central_difference" && adapted
+                     ? fmt::format("{:.4g} s, {} of the critical step", dt, integrator.safety)
+                     : fmt::format("{:.4g} s, {}", dt, adapted ? "adapted" : "fixed"));
     line("steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, built.options.run.t_end));
     const Schedule schedule(built.options);
     line("output",

@@ -175,6 +175,7 @@ bool Run::after_step(const StepReport& step) {
     if (schedule_->frame_due(step)) write_frame();
     if (schedule_->checkpoint_due(step)) {
         write_checkpoint();
+        case_.integrator->forget(*case_.system, state_);
         log_->info("checkpoint: step = {}, t = {:.9g}", progress_.step, step.t);
     }
     history_file_->flush_if_due();

@@ -19,12 +19,12 @@ public:
     }
     Umfpack(const Umfpack&) = delete;
     Umfpack& operator=(const Umfpack&) = delete;
-    ~Umfpack() override { forget(); }
+    ~Umfpack() override { free_all(); }
 
     std::string name() const override { return "umfpack"; }
 
     void analyse(const SparsePattern& pattern) override {
-        forget();
+        free_all();
         pattern_ = pattern;
         const auto n = static_cast<SuiteSparse_long>(pattern.n());
         check(umfpack_dl_symbolic(n, n, starts(), columns(), nullptr, &symbolic_, control_.data(), info_.data()));
@@ -59,7 +59,7 @@ private:
         if (status == UMFPACK_WARNING_singular_matrix) throw SingularMatrix("the matrix is singular: a pivot is zero");
         throw std::logic_error(fmt::format("UMFPACK answers {}", status));
     }
-    void forget() {
+    void free_all() {
         umfpack_dl_free_numeric(&numeric_);
         umfpack_dl_free_symbolic(&symbolic_);
     }

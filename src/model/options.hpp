@@ -107,8 +107,18 @@ struct InitialOptions {
 struct IntegratorOptions {
     std::string type = "central_difference";
     double safety = 0.8;   ///< factor on the critical step, (0, 1]
-    double dt = 0;         ///< fixed step, s; 0: from the critical step
     bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
+    double dt = 0;         ///< fixed step, s; 0: from the critical step, or from the error
+
+    // generalized_alpha, newmark, hht_alpha: GeneralizedAlpha::Options
+    double rho_inf = 0.8, beta = 0.25, gamma = 0.5, alpha = 0.1;
+    bool adaptive = false;  ///< to rtol
+
+    // cvode, arkode, ida: Cvode::Options, Arkode::Options, Ida::Options
+    bool adams = false, functional = false, stability_detection = true;
+    std::string table = "dormand_prince_7_4_5";
+    int max_order = 0;
+    double rtol = 1e-6, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
 
     // quasi_static: QuasiStatic::Options
     double tolerance = 1e-9, step = 0, longest = 0, shortest = 1e-6;

@@ -1,5 +1,5 @@
 #pragma once
-// One run of a solid under central difference, with its ledger.
+// One run of a solid, with its ledger.
 
 #include <functional>
 
@@ -17,11 +17,10 @@ struct SolidRun {
 };
 
 /// @param after_step  called with the state after every step, if given
-inline SolidRun run_solid(const SolidSystem& system, double t_end, const CentralDifference::Options& options = {},
+inline SolidRun run_solid(const SolidSystem& system, double t_end, Integrator& integrator,
                           const std::function<void(const State& state)>& after_step = {}) {
     SolidRun run;
     run.state = system.initial_state();
-    CentralDifference integrator(options);
     March march;
     march.t_end = t_end;
     march.after_start = [&] {
@@ -37,6 +36,13 @@ inline SolidRun run_solid(const SolidSystem& system, double t_end, const Central
     run.ledger.stored = system.stored_energies(run.state);
     run.ledger.path = run.state.path;
     return run;
+}
+
+/// Under central difference.
+inline SolidRun run_solid(const SolidSystem& system, double t_end, const CentralDifference::Options& options = {},
+                          const std::function<void(const State& state)>& after_step = {}) {
+    CentralDifference integrator(options);
+    return run_solid(system, t_end, integrator, after_step);
 }
 
 }  // namespace gneiss::test

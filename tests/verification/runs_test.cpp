@@ -4,56 +4,18 @@
 #include <omp.h>
 
 #include "support/one_thread.hpp"
+#include "verification/everything.hpp"
 #include "verification/run_solid.hpp"
 
 namespace gneiss {
 namespace {
-
-/// A block under everything there is: pressure that follows, traction, damping, viscosity, absorbing and moving sides.
-test::SolidDescription everything(Form form) {
-    test::SolidDescription what;
-    what.materials[0].form = form;
-    what.materials[0].shear_viscosity = 2e3;
-    if (form == Form::hypo) what.materials[0].stiffening = {1, 1e7, 0.5};
-    what.mass_damping = 50;
-    LoadOptions pressure;
-    pressure.kind = LoadOptions::Kind::pressure;
-    pressure.on = "top";
-    pressure.value[0] = 5e6;
-    pressure.amplitude.kind = AmplitudeOptions::Kind::heaviside;
-    LoadOptions weight;
-    weight.kind = LoadOptions::Kind::body_force;
-    weight.value = {0, -9810};
-    LoadOptions late = pressure;
-    late.kind = LoadOptions::Kind::traction;
-    late.on = "top";
-    late.value = {2e6, 0};
-    late.amplitude.start = 7.3e-4;
-    what.loads = {pressure, weight, late};
-    BoundaryOptions absorbing, moving;
-    absorbing.kind = BoundaryOptions::Kind::absorbing;
-    absorbing.on = "left";
-    moving.on = "bottom";
-    moving.value = {Formula(0.0), Formula(1e-3)};
-    moving.amplitude.kind = AmplitudeOptions::Kind::ramp;
-    moving.amplitude.end = 1e-3;
-    BoundaryOptions pushing;
-    pushing.kind = BoundaryOptions::Kind::velocity;
-    pushing.on = "top_right";
-    pushing.value[0] = Formula("-2*y");
-    pushing.amplitude.kind = AmplitudeOptions::Kind::expression;
-    pushing.amplitude.expression = "1 - cos(3000*t)";
-    what.boundaries = {absorbing, moving, pushing};
-
-    return what;
-}
 
 constexpr double t_end = 2e-3;
 
 TEST(WholeRun, EnergyBalance_EverythingActs_ClosesWithOrderTwo) {
     for (const bool compt : {false, true}) {
         for (const Form form : {Form::hyper, Form::hypo}) {
-            const test::Solid solid = test::make_solid(test::rectangle(compt, 2, 2, {8, 8}), everything(form));
+            const test::Solid solid = test::make_solid(test::rectangle(compt, 2, 2, {8, 8}), test::everything(form));
             const double coarse = test::run_solid(*solid.system, t_end, {.safety = 0.4}).ledger.balance_error();
             const test::SolidRun run = test::run_solid(*solid.system, t_end, {.safety = 0.2});
             EXPECT_LT(run.ledger.balance_error(), 1e-3) << compt;  // 150 steps from a jump of the pressure to the end
@@ -71,7 +33,7 @@ TEST(WholeRun, Threads_OneTwoAndThree_GiveTheSameBits) {
     std::vector<State> ends;
     for (const int threads : {1, 2, 3}) {
         omp_set_num_threads(threads);
-        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {24, 24}), everything(Form::hypo));
+        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {24, 24}), test::everything(Form::hypo));
         ends.push_back(test::run_solid(*solid.system, 3e-4).state);
     }
     omp_set_num_threads(1);
@@ -82,7 +44,7 @@ TEST(WholeRun, Threads_OneTwoAndThree_GiveTheSameBits) {
 
 TEST(WholeRun, SavedHalfwayAndLoaded_End_HasTheSameBits) {
     for (const Form form : {Form::hyper, Form::hypo}) {
-        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), everything(form));
+        const test::Solid solid = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), test::everything(form));
         State state = solid.system->initial_state(), saved;
         IntegratorMemory memory;
         CentralDifference integrator({});
@@ -97,7 +59,7 @@ TEST(WholeRun, SavedHalfwayAndLoaded_End_HasTheSameBits) {
         };
         march.run(*solid.system, integrator, state, false);
 
-        const test::Solid again = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), everything(form));
+        const test::Solid again = test::make_solid(test::rectangle(true, 2, 2, {5, 5}), test::everything(form));
         CentralDifference other({});
         other.load(*again.system, saved, memory);
         march.after_step = {};

@@ -96,9 +96,61 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
     {"expression", AmplitudeOptions::Kind::expression, "an expression of t, x and y"},
 }};
 
-inline const std::array<Choice<std::string>, 2> integrators{{
+inline const std::array<Choice<std::string>, 8> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
+    {"generalized_alpha", "generalized_alpha", "implicit, order 2, damps high frequencies alone (Chung and Hulbert)"},
+    {"newmark", "newmark", "implicit, order 2 where `gamma` is 1/2"},
+    {"hht_alpha", "hht_alpha", "implicit, order 2 (Hilber, Hughes and Taylor)"},
+    {"cvode", "cvode", "multistep formulas of variable order and step, to a tolerance (SUNDIALS)"},
+    {"arkode", "arkode", "Runge-Kutta: explicit, implicit or both, to a tolerance or with fixed steps (SUNDIALS)"},
+    {"ida", "ida", "BDF of the system in residual form, to a tolerance (SUNDIALS)"},
     {"quasi_static", "quasi_static", "equilibria under growing loads, by Newton's method; time is load time"},
+}};
+
+inline constexpr std::array<Choice<bool>, 2> multistep_methods{{
+    {"bdf", false, "backward differentiation, for stiff systems"},
+    {"adams", true, "Adams-Moulton, orders up to 12, for motion that has to be resolved anyway"},
+}};
+
+inline constexpr std::array<Choice<bool>, 2> iterations{{
+    {"newton", false, "Newton's method with exact tangents"},
+    {"functional", true, "fixed point, without matrices: steps stay near those of explicit schemes"},
+}};
+
+inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
+    {"heun_euler_2_1_2", "heun_euler_2_1_2", "explicit, order 2"},
+    {"knoth_wolke_3_3", "knoth_wolke_3_3", "explicit, order 3, fixed steps only"},
+    {"bogacki_shampine_4_2_3", "bogacki_shampine_4_2_3", "explicit, order 3"},
+    {"zonneveld_5_3_4", "zonneveld_5_3_4", "explicit, order 4"},
+    {"sayfy_aburub_6_3_4", "sayfy_aburub_6_3_4", "explicit, order 4"},
+    {"cash_karp_6_4_5", "cash_karp_6_4_5", "explicit, order 5"},
+    {"fehlberg_6_4_5", "fehlberg_6_4_5", "explicit, order 5"},
+    {"dormand_prince_7_4_5", "dormand_prince_7_4_5", "explicit, order 5"},
+    {"verner_8_5_6", "verner_8_5_6", "explicit, order 6"},
+    {"fehlberg_13_7_8", "fehlberg_13_7_8", "explicit, order 8"},
+    {"sdirk_2_1_2", "sdirk_2_1_2", "implicit, order 2"},
+    {"billington_3_3_2", "billington_3_3_2", "implicit, order 2"},
+    {"trbdf2_3_3_2", "trbdf2_3_3_2", "implicit, order 2"},
+    {"kvaerno_4_2_3", "kvaerno_4_2_3", "implicit, order 3"},
+    {"esdirk324l2sa_4_2_3", "esdirk324l2sa_4_2_3", "implicit, order 3"},
+    {"esdirk325l2sa_5_2_3", "esdirk325l2sa_5_2_3", "implicit, order 3"},
+    {"esdirk32i5l2sa_5_2_3", "esdirk32i5l2sa_5_2_3", "implicit, order 3"},
+    {"cash_5_2_4", "cash_5_2_4", "implicit, order 4"},
+    {"cash_5_3_4", "cash_5_3_4", "implicit, order 4"},
+    {"sdirk_5_3_4", "sdirk_5_3_4", "implicit, order 4"},
+    {"kvaerno_5_3_4", "kvaerno_5_3_4", "implicit, order 4"},
+    {"esdirk436l2sa_6_3_4", "esdirk436l2sa_6_3_4", "implicit, order 4"},
+    {"esdirk43i6l2sa_6_3_4", "esdirk43i6l2sa_6_3_4", "implicit, order 4"},
+    {"qesdirk436l2sa_6_3_4", "qesdirk436l2sa_6_3_4", "implicit, order 4"},
+    {"esdirk437l2sa_7_3_4", "esdirk437l2sa_7_3_4", "implicit, order 4"},
+    {"kvaerno_7_4_5", "kvaerno_7_4_5", "implicit, order 5"},
+    {"esdirk547l2sa_7_4_5", "esdirk547l2sa_7_4_5", "implicit, order 5"},
+    {"esdirk547l2sa2_7_4_5", "esdirk547l2sa2_7_4_5", "implicit, order 5"},
+    {"ark324l2sa_4_2_3", "ark324l2sa_4_2_3", "additive, order 3"},
+    {"ark436l2sa_6_3_4", "ark436l2sa_6_3_4", "additive, order 4"},
+    {"ark437l2sa_7_3_4", "ark437l2sa_7_3_4", "additive, order 4"},
+    {"ark548l2sa_8_4_5", "ark548l2sa_8_4_5", "additive, order 5"},
+    {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
 }};
 
 inline const std::array<Choice<std::string>, 4> linear_solvers{{

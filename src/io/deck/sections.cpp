@@ -143,43 +143,6 @@ const Section<SolidOptions>& solid_section() {
     return section;
 }
 
-const Section<IntegratorOptions>& integrator_section() {
-    using I = IntegratorOptions;
-    const std::vector<Condition> explicit_scheme{{"type", {"central_difference"}}}, statics{{"type", {"quasi_static"}}};
-    static const Section<I> section{
-        {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
-         number("safety", &I::safety,
-                {.range = half_open(0, 1),
-                 .only_for = explicit_scheme,
-                 .meaning = "part of the critical step that is taken"}),
-         number("dt", &I::dt,
-                {.unit = "s",
-                 .range = at_least(0),
-                 .only_for = explicit_scheme,
-                 .meaning = "fixed step; 0: `safety` times the critical step, renewed as the mesh deforms"}),
-         choice("bound", &I::lanczos, step_bounds,
-                {.only_for = explicit_scheme, .meaning = "how the critical step is found"}),
-         number("tolerance", &I::tolerance,
-                {.range = half_open(0, 0.01),
-                 .only_for = statics,
-                 .meaning = "largest force out of balance over the largest force of the step"}),
-         number("step", &I::step,
-                {.unit = "s",
-                 .range = at_least(0),
-                 .only_for = statics,
-                 .meaning = "first load step; 0: up to the next frame, checkpoint, kink of a load, or the end"}),
-         number("longest", &I::longest,
-                {.unit = "s", .range = at_least(0), .only_for = statics, .meaning = "longest load step; 0: no limit"}),
-         number("shortest", &I::shortest,
-                {.range = open_between(0, 1),
-                 .only_for = statics,
-                 .meaning = "load step, as a part of the first one, at which a run gives up"}),
-         integer("most_iterations", &I::most_iterations,
-                 {.range = at_least(1), .only_for = statics, .meaning = "of Newton's method in a load step"}),
-         choice("solver", &I::solver, linear_solvers, {.only_for = statics, .meaning = "of the linear systems"})}};
-    return section;
-}
-
 const Section<RunOptions>& run_section() {
     using R = RunOptions;
     static const Section<R> section{

@@ -65,6 +65,7 @@ inline Range above(double low) { return {.low = low}; }
 inline Range at_least(double low) { return {.low = low, .low_open = false}; }
 inline Range between(double low, double high) { return {low, high, false, false}; }
 inline Range open_between(double low, double high) { return {low, high, true, true}; }
+inline Range closed(double low, double high) { return {low, high, false, false}; }
 inline Range half_open(double low, double high) { return {low, high, true, false}; }  ///< (low, high]
 
 /// What a number must fulfil.

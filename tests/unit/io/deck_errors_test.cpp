@@ -86,12 +86,15 @@ TEST(DeckErrors, UnknownKeysAndWords) {
         {{"solid.element=compound"}, {"key `solid.element`: given \"compound\", must be one of \"compt\", \"cst\""}},
         {{"solid.element=CTS"},
          {"key `solid.element`: given \"CTS\", must be one of \"compt\", \"cst\", did you mean `cst`?"}},
-        {{"integrator.type=cvode"},
-         {"key `integrator.type`: given \"cvode\", must be one of \"central_difference\", \"quasi_static\""}},
+        {{"integrator.type=rk4"},
+         {"key `integrator.type`: given \"rk4\", must be one of \"central_difference\", \"generalized_alpha\", "
+          "\"newmark\", \"hht_alpha\", \"cvode\", \"arkode\", \"ida\", \"quasi_static\""}},
         {{"integrator.type=quasi_static", "integrator.safety=0.5"},
          {"key `integrator.safety`: only for `type` = \"central_difference\", here `type` is \"quasi_static\""}},
         {{"integrator.tolerance=1e-6"},
-         {"key `integrator.tolerance`: only for `type` = \"quasi_static\", here `type` is \"central_difference\""}},
+         {"key `integrator.tolerance`: only for `type` = \"quasi_static\", \"generalized_alpha\", \"newmark\", "
+          "\"hht_alpha\", "
+          "here `type` is \"central_difference\""}},
         {{"solid.plane=1"}, {"key `solid.plane`: given 1, must be one of \"stress\", \"strain\""}},
     });
 }

@@ -116,6 +116,87 @@ t_end = 1
 )toml",
     R"toml(
 [mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "generalized_alpha"
+rho_inf = 0.5
+adaptive = true
+rtol = 1e-5
+displacement_scale = 1e-3
+velocity_scale = 1
+stress_scale = 1e6
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "newmark"
+beta = 0.3
+gamma = 0.6
+dt = 1e-3
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "hht_alpha"
+alpha = 0.2
+dt = 1e-3
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "cvode"
+method = "adams"
+iteration = "functional"
+max_order = 4
+stability_detection = false
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "arkode"
+table = "sdirk_2_1_2"
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
 file = "rock.geo"
 parameters = { lc = 0.1, n = 3 }
 [solid]
@@ -267,6 +348,30 @@ TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
     EXPECT_EQ(statics.shortest, integrator.shortest);
     EXPECT_EQ(statics.most_iterations, integrator.most_iterations);
     EXPECT_EQ(statics.solver, integrator.solver);
+    const auto check_scheme = [&](const std::string& type) {
+        std::string text = defaults("integrator", type);
+        text.replace(text.find("central_difference"), 18, type);
+        const IntegratorOptions scheme =
+            parse_deck(
+                "[mesh]\nfile = \"a.msh\"\n[solid]\nplane = \"stress\"\n[[material]]\ndensity = 1\nconstants = "
+                "{ E = 1, nu = 0 }\n[integrator]\n" +
+                    text + "[run]\nt_end = 1\n",
+                "defaults.toml")
+                .integrator;
+        EXPECT_EQ(scheme.rho_inf, integrator.rho_inf);
+        EXPECT_EQ(scheme.beta, integrator.beta);
+        EXPECT_EQ(scheme.gamma, integrator.gamma);
+        EXPECT_EQ(scheme.alpha, integrator.alpha);
+        EXPECT_EQ(scheme.adaptive, integrator.adaptive);
+        EXPECT_EQ(scheme.adams, integrator.adams);
+        EXPECT_EQ(scheme.functional, integrator.functional);
+        EXPECT_EQ(scheme.stability_detection, integrator.stability_detection);
+        EXPECT_EQ(scheme.table, integrator.table);
+        EXPECT_EQ(scheme.max_order, integrator.max_order);
+        EXPECT_EQ(scheme.rtol, integrator.rtol);
+        EXPECT_EQ(scheme.stress_scale, integrator.stress_scale);
+    };
+    for (const char* type : {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}) check_scheme(type);
     EXPECT_EQ(read.run.checkpoint, RunOptions{}.checkpoint);
     EXPECT_EQ(read.run.mass_damping, RunOptions{}.mass_damping);
     EXPECT_EQ(read.output.fields, OutputOptions{}.fields);

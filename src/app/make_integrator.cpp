@@ -1,0 +1,83 @@
+#include "app/make_integrator.hpp"
+
+#include <stdexcept>
+
+#include "integrators/arkode.hpp"
+#include "integrators/central_difference.hpp"
+#include "integrators/cvode.hpp"
+#include "integrators/generalized_alpha.hpp"
+#include "integrators/ida.hpp"
+#include "integrators/quasi_static.hpp"
+
+namespace gneiss {
+namespace {
+
+ProblemScales::Given scales(const IntegratorOptions& o) {
+    return {o.displacement_scale, o.velocity_scale, o.stress_scale};
+}
+
+template <class Options>
+Options to_a_tolerance(const IntegratorOptions& o) {
+    Options options;
+    options.rtol = o.rtol;
+    options.scales = scales(o);
+    options.longest = o.longest;
+    options.solver = o.solver;
+    return options;
+}
+
+std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
+    using Scheme = GeneralizedAlpha::Scheme;
+    GeneralizedAlpha::Options options;
+    options.name = o.type;
+    options.scheme = o.type == "newmark"     ? Scheme::newmark(o.beta, o.gamma)
+                     : o.type == "hht_alpha" ? Scheme::hht(o.alpha)
+                                             : Scheme::chung_hulbert(o.rho_inf);
+    options.dt = o.dt;
+    options.rtol = o.adaptive ? o.rtol : 0;
+    options.longest = o.longest;
+    options.scales = scales(o);
+    options.tolerance = o.tolerance;
+    options.most_iterations = o.most_iterations;
+    options.solver = o.solver;
+    return std::make_unique<GeneralizedAlpha>(options);
+}
+
+std::unique_ptr<Integrator> make_cvode(const IntegratorOptions& o) {
+    auto options = to_a_tolerance<Cvode::Options>(o);
+    options.method = o.adams ? Cvode::Method::adams : Cvode::Method::bdf;
+    options.iteration = o.functional ? Cvode::Iteration::functional : Cvode::Iteration::newton;
+    options.stability_detection = o.stability_detection;
+    options.max_order = o.max_order;
+    return std::make_unique<Cvode>(options);
+}
+
+std::unique_ptr<Integrator> make_arkode(const IntegratorOptions& o) {
+    auto options = to_a_tolerance<Arkode::Options>(o);
+    options.table = o.table;
+    options.dt = o.dt;
+    return std::make_unique<Arkode>(options);
+}
+
+std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
+    auto options = to_a_tolerance<Ida::Options>(o);
+    options.max_order = o.max_order;
+    return std::make_unique<Ida>(options);
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
+    if (o.type == "central_difference")
+        return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
+    if (o.type == "quasi_static")
+        return std::make_unique<QuasiStatic>(
+            QuasiStatic::Options{o.tolerance, o.step, o.longest, o.shortest, o.most_iterations, o.solver});
+    if (o.type == "generalized_alpha" || o.type == "newmark" || o.type == "hht_alpha") return make_alpha(o);
+    if (o.type == "cvode") return make_cvode(o);
+    if (o.type == "arkode") return make_arkode(o);
+    if (o.type == "ida") return make_ida(o);
+    throw std::logic_error("no integrator " + o.type);
+}
+
+}  // namespace gneiss

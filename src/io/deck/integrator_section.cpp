@@ -1,0 +1,94 @@
+// The table [integrator]: every scheme's keys.
+
+#include "io/deck/choices.hpp"
+#include "io/deck/keys.hpp"
+#include "io/deck/sections.hpp"
+
+namespace gneiss::deck {
+
+const Section<IntegratorOptions>& integrator_section() {
+    using I = IntegratorOptions;
+    using Types = std::vector<Condition>;
+    const Types leapfrog{{"type", {"central_difference"}}}, newmark{{"type", {"newmark"}}}, cvode{{"type", {"cvode"}}},
+        statics{{"type", {"quasi_static"}}}, alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}},
+        multistep{{"type", {"cvode", "ida"}}},
+        stepped{{"type", {"central_difference", "generalized_alpha", "newmark", "hht_alpha", "arkode"}}},
+        controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}},
+        newton{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha"}}},
+        limited{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}};
+    static const Section<I> section{
+        {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
+         number("safety", &I::safety,
+                {.range = half_open(0, 1), .only_for = leapfrog, .meaning = "part of the critical step that is taken"}),
+         choice("bound", &I::lanczos, step_bounds, {.only_for = leapfrog, .meaning = "how the critical step is found"}),
+         number("dt", &I::dt,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .only_for = stepped,
+                 .meaning = "fixed step. 0: central_difference takes `safety` times the critical step, renewed as the "
+                            "mesh deforms; arkode takes steps from its error estimate; the others need `adaptive`, "
+                            "where this is the first step"}),
+         number("rho_inf", &I::rho_inf,
+                {.range = closed(0, 1),
+                 .only_for = {{"type", {"generalized_alpha"}}},
+                 .meaning = "part of the highest frequencies' amplitude that a step leaves; 1: no damping"}),
+         number("beta", &I::beta,
+                {.range = half_open(0, 2), .only_for = newmark, .meaning = "1/4: mean acceleration; 1/6: linear"}),
+         number("gamma", &I::gamma,
+                {.range = closed(0.5, 2), .only_for = newmark, .meaning = "above 1/2: damped, and of order 1"}),
+         number("alpha", &I::alpha,
+                {.range = closed(0, 1.0 / 3),
+                 .only_for = {{"type", {"hht_alpha"}}},
+                 .meaning = "weight of the last state in the stage at which forces are taken; 0: no damping"}),
+         boolean("adaptive", &I::adaptive, {.only_for = alphas, .meaning = "steps from an error estimate, to `rtol`"}),
+         choice("method", &I::adams, multistep_methods, {.only_for = cvode, .meaning = "family of formulas"}),
+         choice("iteration", &I::functional, iterations,
+                {.only_for = cvode, .meaning = "how the nonlinear system of a step is solved"}),
+         boolean("stability_detection", &I::stability_detection,
+                 {.only_for = cvode,
+                  .meaning = "lowers the order of `bdf` where its orders 3 to 5 are unstable on undamped vibration"}),
+         choice("table", &I::table, runge_kutta_tables,
+                {.only_for = {{"type", {"arkode"}}},
+                 .meaning = "coefficients, as SUNDIALS names them: stages, embedded order, order"}),
+         integer("max_order", &I::max_order,
+                 {.range = closed(0, 12),
+                  .only_for = multistep,
+                  .meaning = "highest order: `bdf` and ida up to 5, `adams` up to 12; 0: that"}),
+         number("rtol", &I::rtol,
+                {.range = half_open(0, 0.1),
+                 .only_for = controlled,
+                 .meaning = "error of a step over the scale of displacement, velocity, stress; root mean square"}),
+         number("displacement_scale", &I::displacement_scale,
+                {.unit = "m",
+                 .range = at_least(0),
+                 .only_for = controlled,
+                 .meaning = "what errors of displacement are measured against; 0: the largest so far"}),
+         number("velocity_scale", &I::velocity_scale,
+                {.unit = "m/s", .range = at_least(0), .only_for = controlled, .meaning = "the same of velocity"}),
+         number("stress_scale", &I::stress_scale,
+                {.unit = "Pa",
+                 .range = at_least(0),
+                 .only_for = controlled,
+                 .meaning = "the same of the stresses that hypo-elastic materials carry"}),
+         number("tolerance", &I::tolerance,
+                {.range = half_open(0, 0.01),
+                 .only_for = newton,
+                 .meaning = "largest force out of balance over the largest force of the step"}),
+         integer("most_iterations", &I::most_iterations,
+                 {.range = at_least(1), .only_for = newton, .meaning = "of Newton's method in a step"}),
+         number("step", &I::step,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .only_for = statics,
+                 .meaning = "first load step; 0: up to the next frame, checkpoint, kink of a load, or the end"}),
+         number("longest", &I::longest,
+                {.unit = "s", .range = at_least(0), .only_for = limited, .meaning = "longest step; 0: no limit"}),
+         number("shortest", &I::shortest,
+                {.range = open_between(0, 1),
+                 .only_for = statics,
+                 .meaning = "load step, as a part of the first one, at which a run gives up"}),
+         choice("solver", &I::solver, linear_solvers, {.only_for = limited, .meaning = "of the linear systems"})}};
+    return section;
+}
+
+}  // namespace gneiss::deck

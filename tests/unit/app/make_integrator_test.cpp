@@ -1,0 +1,53 @@
+// Integrators by the names of a deck.
+
+#include "app/make_integrator.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "integrators/arkode.hpp"
+#include "io/deck/choices.hpp"
+
+namespace gneiss {
+namespace {
+
+TEST(MakeIntegrator, RungeKuttaTables_AreThoseOfTheDeckWithTheirOrders) {
+    const auto tables = runge_kutta_tables();
+    ASSERT_EQ(tables.size(), deck::runge_kutta_tables.size());
+    const char* const kinds[] = {"explicit", "implicit", "additive"};
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        EXPECT_EQ(deck::runge_kutta_tables[k].name, tables[k].name);
+        EXPECT_EQ(deck::runge_kutta_tables[k].meaning,
+                  fmt::format("{}, order {}{}", kinds[static_cast<int>(tables[k].kind())], tables[k].order(),
+                              tables[k].embedded() ? "" : ", fixed steps only"));
+    }
+}
+
+TEST(MakeIntegrator, EveryTypeOfADeck_IsMadeUnderItsName) {
+    for (const auto& type : deck::integrators) {
+        IntegratorOptions options;
+        options.type = type.value;
+        options.dt = 1e-3;
+        EXPECT_EQ(make_integrator(options)->name(), type.name);
+    }
+}
+
+TEST(MakeIntegrator, NewmarkWithLinearAcceleration_Adaptive_IsRefused) {
+    IntegratorOptions options;
+    options.type = "newmark";
+    options.beta = 1.0 / 6;
+    options.adaptive = true;
+    EXPECT_THROW(make_integrator(options), InputError);
+}
+
+TEST(MakeIntegrator, StepsLeftOpen_AreRefusedWhereNothingEstimatesThem) {
+    IntegratorOptions options;
+    options.type = "generalized_alpha";
+    EXPECT_THROW(make_integrator(options), InputError);
+    options.type = "arkode";
+    options.table = "knoth_wolke_3_3";
+    EXPECT_THROW(make_integrator(options), InputError);
+}
+
+}  // namespace
+}  // namespace gneiss
