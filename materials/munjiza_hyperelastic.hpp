@@ -16,7 +16,7 @@ struct MunjizaHyperelastic {
     static constexpr std::size_t n_history = direct ? WorkMeter::n_history : 0;
     static constexpr bool has_stored_energy = !direct;
     static constexpr bool offers_centre = direct;  ///< `centre` is not the gradient of an energy either
-    static constexpr bool uniform_q = true;        ///< q is the same in all sub-triangles of a composite
+    static constexpr bool uniform_q = true;        ///< q follows from s_v alone, P alpha and P beta from F alone
 
     template <class T>
     using Memory = PointMemory<T, n_internal, n_history>;

@@ -96,10 +96,11 @@ public:
                                      const LocalNodes& local) const = 0;
     /// Whether df/du and df/dv are symmetric.
     virtual bool symmetric_tangent() const = 0;
-    /// Where the 2 x 2 blocks of element matrices stand in a matrix of compressed rows.
+    /// Where the 2 x 2 blocks of element matrices stand in a matrix of compressed rows, which holds pairs of entries.
     struct MatrixPlaces {
-        const std::uint32_t* blocks;  ///< first entry of a pair of nodes, shape (packs, n_nodes, n_nodes, pack_width)
-        const std::uint32_t* row_lengths;  ///< of the rows of a node, shape (nodes of the mesh)
+        const PairNumber* blocks;  ///< upper pair of a pair of nodes, shape (packs, n_nodes, n_nodes, pack_width)
+        const std::int32_t*
+            row_pairs;  ///< from the upper pair to the lower one, of a row node, shape (nodes of the mesh)
     };
     /// Adds c_u df/du + c_v df/dv of packs [first, last), memory updated with u.
     virtual void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/parallel.hpp"
 
@@ -12,6 +14,11 @@ namespace {
 
 /// Sub-triangles per chunk: a few chunks of each colour even in small solids.
 constexpr std::size_t chunk_size = 512;
+
+/// Where item k of n of an element stands in an array of shape (packs, n, pack_width).
+std::size_t lane_of(std::uint32_t n, std::uint32_t local, std::uint32_t k) {
+    return (local / pack_width * n + k) * pack_width + local % pack_width;
+}
 
 }  // namespace
 
@@ -25,45 +32,102 @@ SolidTangent::SolidTangent(const ElementForces& elements, std::span<const std::u
     }
     plan_pattern();
     plan_chunks();
-    plan_places();
+    plan_terms();
 }
 
 void SolidTangent::plan_pattern() {
     const std::size_t n_nodes = mass_.size() / 2;
+    // the elements at each node
+    struct Corner {
+        std::uint32_t block, local, node;  ///< which block, element of the block, and node of the element
+    };
+    std::vector<std::size_t> corner_starts(n_nodes + 1, 0);
+    const auto for_each_corner = [&](auto visit) {
+        for (std::uint32_t b = 0; b < elements_.blocks().size(); ++b) {
+            const ElementBlock& block = *elements_.blocks()[b];
+            const auto n = static_cast<std::uint32_t>(block.n_nodes());
+            for (std::uint32_t local = 0; local < block.n_elements(); ++local)
+                for (std::uint32_t k = 0; k < n; ++k)
+                    visit(static_cast<std::size_t>(block.nodes()[lane_of(n, local, k)]), Corner{b, local, k});
+        }
+    };
+    for_each_corner([&](std::size_t node, const Corner&) { ++corner_starts[node + 1]; });
+    std::partial_sum(corner_starts.begin(), corner_starts.end(), corner_starts.begin());
+    std::vector<Corner> corners(corner_starts.back());
+    std::vector<std::size_t> next(corner_starts.begin(), corner_starts.end() - 1);
+    for_each_corner([&](std::size_t node, const Corner& corner) { corners[next[node]++] = corner; });
+
     // neighbours of each node: the nodes of its elements
-    std::vector<std::vector<std::int32_t>> neighbours(n_nodes);
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> list, seen_by(n_nodes, none);
+    std::size_t n_pairs = 0;
+    const auto find_neighbours = [&](std::size_t node) {
+        list.clear();
+        for (std::size_t c = corner_starts[node]; c < corner_starts[node + 1]; ++c) {
+            const ElementBlock& block = *elements_.blocks()[corners[c].block];
+            const auto n = static_cast<std::uint32_t>(block.n_nodes());
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const std::int32_t other = block.nodes()[lane_of(n, corners[c].local, k)];
+                if (std::exchange(seen_by[static_cast<std::size_t>(other)], static_cast<std::int32_t>(node)) !=
+                    static_cast<std::int32_t>(node))
+                    list.push_back(other);
+            }
+        }
+    };
+    row_starts_.assign(1, 0);
+    row_starts_.reserve(2 * n_nodes + 1);
+    row_pairs_.reserve(n_nodes);
+    for (std::size_t node = 0; node < n_nodes; ++node) {
+        find_neighbours(node);
+        row_pairs_.push_back(static_cast<std::int32_t>(list.size()));
+        n_pairs += 2 * list.size();
+        for (int row = 0; row < 2; ++row)
+            row_starts_.push_back(row_starts_.back() + 2 * static_cast<std::int64_t>(list.size()));
+    }
+    if (n_pairs > std::numeric_limits<std::int32_t>::max())
+        throw std::length_error("a tangent of more than 2^32 entries");
+
+    columns_.resize(2 * n_pairs);
     for (const auto& block : elements_.blocks()) {
         const auto n = static_cast<std::size_t>(block->n_nodes());
-        for (std::size_t local = 0; local < block->n_elements(); ++local) {
-            const std::size_t first = local / pack_width * n * pack_width + local % pack_width;
-            const auto node = [&](std::size_t k) { return block->nodes()[first + k * pack_width]; };
-            for (std::size_t a = 0; a < n; ++a)
-                for (std::size_t b = 0; b < n; ++b) neighbours[static_cast<std::size_t>(node(a))].push_back(node(b));
-        }
+        blocks_.emplace_back(block->n_packs() * n * n * pack_width);
     }
-    std::size_t n_nonzero = 0;
-    for (auto& list : neighbours) {
+    std::vector<std::int32_t> position(n_nodes);  // of a neighbour in the row at hand
+    std::ranges::fill(seen_by, none);
+    for (std::size_t node = 0; node < n_nodes; ++node) {
+        find_neighbours(node);
         std::ranges::sort(list);
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        n_nonzero += 4 * list.size();
-    }
-    if (n_nonzero > std::numeric_limits<std::uint32_t>::max())
-        throw std::length_error("a tangent of more than 2^32 entries");
-    row_starts_.assign(1, 0);
-    columns_.reserve(n_nonzero);
-    for (const auto& list : neighbours) {
-        row_lengths_.push_back(static_cast<std::uint32_t>(2 * list.size()));
-        for (int row = 0; row < 2; ++row) {
-            for (const std::int32_t node : list) columns_.insert(columns_.end(), {2 * node, 2 * node + 1});
-            row_starts_.push_back(static_cast<std::int64_t>(columns_.size()));
+        const auto start = static_cast<std::int32_t>(row_starts_[2 * node] / 2);
+        auto upper = columns_.begin() + row_starts_[2 * node], lower = columns_.begin() + row_starts_[2 * node + 1];
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            position[static_cast<std::size_t>(list[i])] = start + static_cast<std::int32_t>(i);
+            for (int component = 0; component < 2; ++component)
+                *upper++ = *lower++ = std::int64_t{2} * list[i] + component;
         }
+        for (std::size_t c = corner_starts[node]; c < corner_starts[node + 1]; ++c) {
+            const auto& [b, local, row] = corners[c];
+            const ElementBlock& block = *elements_.blocks()[b];
+            const auto n = static_cast<std::uint32_t>(block.n_nodes());
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const std::int32_t other = block.nodes()[lane_of(n, local, k)];
+                blocks_[b][lane_of(n * n, local, row * n + k)].value = position[static_cast<std::size_t>(other)];
+            }
+        }
+    }
+    // lanes behind the last element repeat it
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const ElementBlock& block = *elements_.blocks()[b];
+        const auto n = static_cast<std::uint32_t>(block.n_nodes() * block.n_nodes());
+        const auto last = static_cast<std::uint32_t>(block.n_elements() - 1);
+        for (std::uint32_t lane = last + 1; lane < block.n_packs() * pack_width; ++lane)
+            for (std::uint32_t k = 0; k < n; ++k) blocks_[b][lane_of(n, lane, k)] = blocks_[b][lane_of(n, last, k)];
     }
 }
 
 void SolidTangent::plan_chunks() {
     const std::vector<PackRange> chunks = pack_ranges(elements_.blocks(), chunk_size);
     // the lowest colour that no neighbour has
-    std::vector<std::uint64_t> colours_at(row_lengths_.size(), 0);  // bits, of each node
+    std::vector<std::uint64_t> colours_at(row_pairs_.size(), 0);  // bits, of each node
     std::vector<int> colour_of;
     for (const PackRange& chunk : chunks) {
         const auto nodes = elements_.blocks()[chunk.block]->nodes_of_packs(chunk.first, chunk.last);
@@ -83,33 +147,21 @@ void SolidTangent::plan_chunks() {
     }
 }
 
-std::uint32_t SolidTangent::place(std::int32_t row_node, std::int32_t column_node) const {
+PairNumber SolidTangent::place(std::int32_t row_node, std::int32_t column_node) const {
     const auto row = static_cast<std::size_t>(2 * row_node);
     const auto first = columns_.begin() + row_starts_[row], last = columns_.begin() + row_starts_[row + 1];
     const auto found = std::lower_bound(first, last, std::int64_t{2} * column_node);
     if (found == last || *found != 2 * column_node)
         throw std::logic_error("a load couples two nodes that share no element");
-    return static_cast<std::uint32_t>(found - columns_.begin());
+    return {static_cast<std::int32_t>((found - columns_.begin()) / 2)};
 }
 
-void SolidTangent::plan_places() {
-    for (const auto& block : elements_.blocks()) {
-        const auto n = static_cast<std::size_t>(block->n_nodes());
-        const auto nodes = block->nodes();
-        std::vector<std::uint32_t>& places = blocks_.emplace_back();
-        places.reserve(block->n_packs() * n * n * pack_width);
-        for (std::size_t pack = 0; pack < block->n_packs(); ++pack)
-            for (std::size_t a = 0; a < n; ++a)
-                for (std::size_t b = 0; b < n; ++b)
-                    for (std::size_t lane = 0; lane < pack_width; ++lane)
-                        places.push_back(place(nodes[(pack * n + a) * pack_width + lane],
-                                               nodes[(pack * n + b) * pack_width + lane]));
-    }
-    for (std::size_t node = 0; node < row_lengths_.size(); ++node)
+void SolidTangent::plan_terms() {
+    for (std::size_t node = 0; node < row_pairs_.size(); ++node)
         diagonal_.push_back(place(static_cast<std::int32_t>(node), static_cast<std::int32_t>(node)));
     std::size_t most = 0;
     for (const auto& pairs : couplings_) {
-        std::vector<std::uint32_t>& places = term_places_.emplace_back();
+        std::vector<PairNumber>& places = term_places_.emplace_back();
         for (const auto& [a, b] : pairs) places.push_back(place(a, b));
         most = std::max(most, pairs.size());
     }
@@ -118,9 +170,9 @@ void SolidTangent::plan_places() {
 
 void SolidTangent::assemble(const State& accepted, const Trial& trial, const Factors& factors,
                             std::span<double> values) const {
-    const auto add_block = [&](std::size_t node, std::uint32_t at, double xx, double xy, double yx, double yy) {
-        double* upper = values.data() + at;
-        double* lower = upper + row_lengths_[node];
+    const auto add_block = [&](std::size_t node, PairNumber at, double xx, double xy, double yx, double yy) {
+        double* upper = pair_at(values.data(), at);
+        double* lower = upper + 2 * row_pairs_[node];
         upper[0] += xx;
         upper[1] += xy;
         lower[0] += yx;
@@ -149,7 +201,7 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
             const PackRange& chunk = chunks_[static_cast<std::size_t>(c)];
             elements_.blocks()[chunk.block]->add_tangent(
                 chunk.first, chunk.last, elements_.evaluation(chunk.block, accepted, trial), -factors.stiffness,
-                -factors.velocity, {blocks_[chunk.block].data(), row_lengths_.data()}, values.data());
+                -factors.velocity, {blocks_[chunk.block].data(), row_pairs_.data()}, values.data());
         }
     }
     for (std::size_t t = 0; t < terms_.size(); ++t) {

@@ -30,9 +30,9 @@ public:
 private:
     void plan_pattern();
     void plan_chunks();
-    void plan_places();
+    void plan_terms();
     /// Where the 2 x 2 block of two nodes begins.
-    std::uint32_t place(std::int32_t row_node, std::int32_t column_node) const;
+    PairNumber place(std::int32_t row_node, std::int32_t column_node) const;
 
     const ElementForces& elements_;
     std::span<const std::unique_ptr<ForceTerm>> terms_;
@@ -41,12 +41,12 @@ private:
     bool symmetric_;
 
     std::vector<std::int64_t> row_starts_, columns_;
-    std::vector<std::uint32_t> row_lengths_;          ///< of the rows of a node
-    std::vector<std::vector<std::uint32_t>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
-    std::vector<PackRange> chunks_;                   ///< by colour
-    std::vector<std::size_t> colour_starts_;          ///< in chunks_
-    std::vector<std::uint32_t> diagonal_;             ///< place of each node's own 2 x 2 block
-    std::vector<std::vector<std::uint32_t>> term_places_;
+    std::vector<std::int32_t> row_pairs_;          ///< pairs of entries in either row of a node
+    std::vector<std::vector<PairNumber>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
+    std::vector<PackRange> chunks_;                ///< by colour
+    std::vector<std::size_t> colour_starts_;       ///< in chunks_
+    std::vector<PairNumber> diagonal_;             ///< place of each node's own 2 x 2 block
+    std::vector<std::vector<PairNumber>> term_places_;
     mutable std::vector<ForceTerm::Stiffness> term_stiffness_;  ///< scratch
     std::vector<std::vector<std::array<std::int32_t, 2>>> couplings_;
 };

@@ -46,8 +46,8 @@ public:
     bool symmetric_tangent() const override {
         return Law::has_stored_energy && sampling == Sampling::mean && !viscous();
     }
-    void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
-                     const MatrixPlaces& places, double* values) const override;
+    GNEISS_FLATTEN void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
+                                    const MatrixPlaces& places, double* values) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
@@ -95,16 +95,12 @@ private:
     GNEISS_FLATTEN std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
                                                   const LocalNodes& local) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack::batch_bool_type& upright) const;
-    /// The same displacements or velocities as independent variables.
+    /// Displacements or velocities as independent variables.
     static Nodal<Dual<n_dof, Pack>> independent(const Nodal<Pack>& values);
-    static Nodal<Dual<n_dof, Pack>> constant(const Nodal<Pack>& values);
     /// Forces of the law with their derivatives by u; without viscous forces.
-    template <bool given>
     Nodal<Dual<n_dof, Pack>> law_force(const PackGeometry& g, const Nodal<Pack>& u, const Memory<Pack>& memory) const;
-    /// Viscous forces with their derivatives by what is independent of u and v.
-    template <class U>
-    Nodal<Dual<n_dof, Pack>> viscous_force(const PackGeometry& g, const Nodal<U>& u,
-                                           const Nodal<Dual<n_dof, Pack>>& v) const;
+    /// Viscous forces with their derivatives by v.
+    Nodal<Dual<n_dof, Pack>> viscous_force(const PackGeometry& g, const Nodal<Pack>& u, const Nodal<Pack>& v) const;
     /// d(force i)/d(variable j) of an element.
     static const Pack& derivative(const Nodal<Dual<n_dof, Pack>>& f, int i, int j) {
         return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/prefetch.hpp"
+#include "elements/triangle_tangent.hpp"
 #include "model/eigenvalue_bound.hpp"
 #include "model/triangle_block.hpp"
 
@@ -103,79 +104,36 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
 // ---------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::independent(const Nodal<Pack>& values) -> Nodal<Dual<n_dof, Pack>> {
-    using D = Dual<n_dof, Pack>;
-    Nodal<D> duals;
-    for (int node = 0; node < Element::n_nodes; ++node)
-        duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
-    return duals;
-}
-
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::constant(const Nodal<Pack>& values) -> Nodal<Dual<n_dof, Pack>> {
-    Nodal<Dual<n_dof, Pack>> duals;
-    for (int node = 0; node < Element::n_nodes; ++node) duals[node] = {values[node].x, values[node].y};
-    return duals;
-}
-
-template <class Element, Sampling sampling, class Law>
-template <bool given>
-auto TriangleBlock<Element, sampling, Law>::law_force(const PackGeometry& g, const Nodal<Pack>& u,
-                                                      const Memory<Pack>& memory) const -> Nodal<Dual<n_dof, Pack>> {
-    Nodal<Dual<n_dof, Pack>> f;
-    const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
-    triangle_force(kinematics, g, triangle_stress<Element, given>(law_, kinematics, g, memory), f);
-    return f;
-}
-
-template <class Element, Sampling sampling, class Law>
-template <class U>
-auto TriangleBlock<Element, sampling, Law>::viscous_force(const PackGeometry& g, const Nodal<U>& u,
-                                                          const Nodal<Dual<n_dof, Pack>>& v) const
-    -> Nodal<Dual<n_dof, Pack>> {
-    Nodal<Dual<n_dof, Pack>> f{};
-    const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
-    add_viscous_force<Element>(info_.viscosity, kinematics, triangle_rates<Element, sampling>(v, kinematics, g), g, f);
-    return f;
-}
-
-template <class Element, Sampling sampling, class Law>
 void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::size_t last, const Evaluation& at,
                                                         double c_u, double c_v, const MatrixPlaces& places,
                                                         double* values) const {
     constexpr std::size_t n_pairs = Element::n_nodes * Element::n_nodes;
-    std::array<std::array<double, pack_width>, n_dof * n_dof> matrix;
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
-        const Nodal<Pack> u = gather(at.u, pack);
+        const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
         const Memory<Pack> memory = load_memory(at, pack);
-        std::array<Pack, n_dof * n_dof> sum;
-        const auto add = [&](double factor, const Nodal<Dual<n_dof, Pack>>& f) {
-            for (int i = 0; i < n_dof; ++i)
-                for (int j = 0; j < n_dof; ++j) sum[i * n_dof + j] += factor * derivative(f, i, j);
-        };
-        sum.fill(Pack(0.0));
-        add(c_u, at.given ? law_force<true>(g, u, memory) : law_force<false>(g, u, memory));
+        ElementMatrix<Element, Pack> matrix;
+        for (auto& row : matrix) row.fill(Pack(0.0));
+        if (at.given)
+            add_law_tangent<Element, sampling, true>(law_, kinematics, g, memory, c_u, matrix);
+        else
+            add_law_tangent<Element, sampling, false>(law_, kinematics, g, memory, c_u, matrix);
         if (viscous()) {
-            const Nodal<Pack> v = gather(at.v, pack);
-            add(c_u, viscous_force(g, independent(u), constant(v)));
-            add(c_v, viscous_force(g, u, independent(v)));
+            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            add_viscous_tangent<Element, sampling>(info_.viscosity, kinematics, rates, g, c_u, c_v, matrix);
         }
-        for (int k = 0; k < n_dof * n_dof; ++k) sum[k].store_unaligned(matrix[k].data());
-        const std::size_t n_lanes = std::min(pack_width, n_elements() - pack * pack_width);
-        for (std::size_t lane = 0; lane < n_lanes; ++lane) {
-            const std::int32_t* row_nodes = nodes_.data() + pack * index_stride + lane;
-            const std::uint32_t* place = places.blocks + pack * n_pairs * pack_width + lane;
-            for (int a = 0; a < Element::n_nodes; ++a) {
-                const std::uint32_t row = places.row_lengths[row_nodes[static_cast<std::size_t>(a) * pack_width]];
-                for (int b = 0; b < Element::n_nodes; ++b, place += pack_width) {
-                    double* upper = values + *place;
-                    double* lower = upper + row;
-                    upper[0] += matrix[(2 * a) * n_dof + 2 * b][lane];
-                    upper[1] += matrix[(2 * a) * n_dof + 2 * b + 1][lane];
-                    lower[0] += matrix[(2 * a + 1) * n_dof + 2 * b][lane];
-                    lower[1] += matrix[(2 * a + 1) * n_dof + 2 * b + 1][lane];
-                }
+        // lanes behind the last element have no volume: they add zeros
+        const std::int32_t* row_nodes = nodes_.data() + pack * index_stride;
+        const PairNumber* upper = places.blocks + pack * n_pairs * pack_width;
+        for (std::size_t a = 0; a < Element::n_nodes; ++a, row_nodes += pack_width) {
+            std::array<std::int32_t, pack_width> row_pairs;
+            for (std::size_t lane = 0; lane < pack_width; ++lane) row_pairs[lane] = places.row_pairs[row_nodes[lane]];
+            for (std::size_t b = 0; b < Element::n_nodes; ++b, upper += pack_width) {
+                std::array<PairNumber, pack_width> lower;
+                for (std::size_t lane = 0; lane < pack_width; ++lane)
+                    lower[lane].value = upper[lane].value + row_pairs[lane];
+                scatter_add_pairs(values, upper, matrix[2 * a][2 * b], matrix[2 * a][2 * b + 1]);
+                scatter_add_pairs(values, lower.data(), matrix[2 * a + 1][2 * b], matrix[2 * a + 1][2 * b + 1]);
             }
         }
     }
@@ -210,6 +168,34 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
 }
 
 template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::independent(const Nodal<Pack>& values) -> Nodal<Dual<n_dof, Pack>> {
+    using D = Dual<n_dof, Pack>;
+    Nodal<D> duals;
+    for (int node = 0; node < Element::n_nodes; ++node)
+        duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
+    return duals;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::law_force(const PackGeometry& g, const Nodal<Pack>& u,
+                                                      const Memory<Pack>& memory) const -> Nodal<Dual<n_dof, Pack>> {
+    Nodal<Dual<n_dof, Pack>> f;
+    const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
+    triangle_force(kinematics, g, triangle_stress<Element, false>(law_, kinematics, g, memory), f);
+    return f;
+}
+
+template <class Element, Sampling sampling, class Law>
+auto TriangleBlock<Element, sampling, Law>::viscous_force(const PackGeometry& g, const Nodal<Pack>& u,
+                                                          const Nodal<Pack>& v) const -> Nodal<Dual<n_dof, Pack>> {
+    Nodal<Dual<n_dof, Pack>> f{};
+    const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
+    add_viscous_force<Element>(info_.viscosity, kinematics,
+                               triangle_rates<Element, sampling>(independent(v), kinematics, g), g, f);
+    return f;
+}
+
+template <class Element, Sampling sampling, class Law>
 Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
                                                                 const Nodal<Dual<n_dof, Pack>>& f) const {
     std::array<Pack, Element::n_nodes> mass;
@@ -232,10 +218,8 @@ auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
         const Nodal<Pack> u = gather(at.u, pack);
-        omega_squared =
-            xsimd::max(omega_squared, mass_weighted_bound(g, law_force<false>(g, u, load_memory(at, pack))));
-        if (viscous())
-            damping = xsimd::max(damping, mass_weighted_bound(g, viscous_force(g, u, independent(gather(at.v, pack)))));
+        omega_squared = xsimd::max(omega_squared, mass_weighted_bound(g, law_force(g, u, load_memory(at, pack))));
+        if (viscous()) damping = xsimd::max(damping, mass_weighted_bound(g, viscous_force(g, u, gather(at.v, pack))));
     }
     const auto largest = [](const Pack& pack) {
         std::array<double, pack_width> values;
