@@ -9,8 +9,7 @@
 set -euo pipefail
 
 # What a find_package, an include or a script of this repository asks for, and nothing else: a bare machine waits for
-# every further one. deal.II (1.3 GB, for the cross-check), SUNDIALS and SuiteSparse (0.3 GB, for the implicit
-# integrators) join this list together with the code that uses them.
+# every further one.
 packages=(
     ca-certificates git
     g++ cmake ninja-build ccache                   # compiler with OpenMP, build
@@ -20,6 +19,7 @@ packages=(
     libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
     libgtest-dev libgmock-dev libbenchmark-dev     # tests, benchmarks
+    libdeal.ii-dev                                 # tests/crosscheck, the largest of all; gneiss itself does without
     python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
 )
 
@@ -108,7 +108,7 @@ done
 [[ ${#unknown[@]} -eq 0 ]] || apt_failed "apt's lists do not have ${unknown[*]}. Is the archive within reach? gneiss is
 developed on Debian 12"
 
-say "installing (apt-get install --no-install-recommends); on a bare machine about 0.7 GB to fetch, several minutes"
+say "installing (apt-get install --no-install-recommends); on a bare machine about 0.9 GB to fetch, several minutes"
 apt install --no-install-recommends "${missing[@]}" || apt_failed "apt-get install failed"
 
 mapfile -t missing < <(missing_packages)

@@ -64,12 +64,18 @@ counts=$(/usr/bin/python3 - "$report" <<'PYTHON'
 import sys
 import xml.etree.ElementTree as xml
 
-cases = [(case.get("name"), case.get("status"), case.find("skipped")) for case in xml.parse(sys.argv[1]).iter("testcase")]
-passed = [name for name, status, _ in cases if status == "run"]
-skipped = [name for name, status, skip in cases if status == "disabled" or skip is not None and "SKIP" in skip.get("message", "")]
-failed = [name for name, *_ in cases if name not in {*passed, *skipped}]
+cases = {case.get("name"): case for case in xml.parse(sys.argv[1]).iter("testcase")}
+skips = {name: case.find("skipped") for name, case in cases.items()}
+passed = [name for name, case in cases.items() if case.get("status") == "run"]
+skipped = [name for name, case in cases.items() if case.get("status") == "disabled" or
+           skips[name] is not None and "SKIP" in skips[name].get("message", "")]
+failed = [name for name in cases if name not in {*passed, *skipped}]
 print(len(passed), len(failed), len(skipped))
-print(*[f"      failed:  {name}" for name in failed], *[f"      skipped: {name}" for name in skipped], sep="\n")
+for name in failed:
+    print(f"      failed:  {name}")
+for name in skipped:  # a test may say why: "skipped: REASON"
+    reasons = [line for line in cases[name].findtext("system-out", "").splitlines() if line.startswith("skipped: ")]
+    print(f"      skipped: {name}" + "".join(", " + line.removeprefix("skipped: ") for line in reasons))
 PYTHON
 )
 read -r passed failed skipped <<<"$counts"

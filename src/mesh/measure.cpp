@@ -41,6 +41,19 @@ std::vector<double> element_areas(const Mesh& mesh) {
     return areas;
 }
 
+bool has_straight_sides(const Mesh& mesh, std::size_t element) {
+    // of a coordinate; what a mid-point computed in one way or another may differ by
+    constexpr double round_off = 1e-15;
+    const std::int32_t* nodes = mesh.element(element);
+    const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[local])]; };
+    for (const auto& [a, middle, b] : composite_sides) {
+        const Point2 from = at(a), between = at(middle), to = at(b);
+        const double size = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(to[0]), std::abs(to[1])});
+        if (!(distance(between, midpoint(from, to)) <= round_off * size)) return false;
+    }
+    return true;
+}
+
 MeshSize mesh_size(const Mesh& mesh) {
     MeshSize size{mesh.n_nodes(), mesh.n_elements(), std::numeric_limits<double>::max(), 0, 0};
     for_each_triangle(mesh, [&](std::size_t, const Point2& p, const Point2& q, const Point2& r) {

@@ -6,7 +6,6 @@
 
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
-#include "mesh/composite.hpp"
 #include "mesh/measure.hpp"
 #include "model/blocks/make_block.hpp"
 #include "model/formula.hpp"
@@ -70,22 +69,6 @@ std::vector<std::array<double, 3>> in_situ_stress(const Mesh& mesh, const std::v
         stress.push_back({compiled[0](x, y), compiled[1](x, y), compiled[2](x, y)});
     }
     return stress;
-}
-
-/// True if mid-side nodes stand in the middle of straight sides, to round-off.
-bool is_straight(const Mesh& mesh, std::size_t element) {
-    constexpr double round_off =
-        1e-15;  // of a coordinate; what a mid-point computed in one way or another may differ by
-    const std::int32_t* nodes = mesh.element(element);
-    const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[local])]; };
-    for (const auto& [a, middle, b] : composite_sides) {
-        const auto from = at(a), between = at(middle), to = at(b);
-        const double size = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(to[0]), std::abs(to[1])});
-        if (!(std::hypot(between[0] - 0.5 * (from[0] + to[0]), between[1] - 0.5 * (from[1] + to[1])) <=
-              round_off * size))
-            return false;
-    }
-    return true;
 }
 
 /// What a deck has checked already, and a program that fills the options by hand has not.
@@ -163,7 +146,7 @@ std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const S
         std::array<std::vector<std::int32_t>, 2> elements;
         for (std::size_t e = 0; e < mesh.n_elements(); ++e)
             if (of_region[static_cast<std::size_t>(mesh.region[e])] == static_cast<std::int32_t>(m))
-                elements[mesh.kind == ElementKind::compt && is_straight(mesh, e)].push_back(
+                elements[mesh.kind == ElementKind::compt && has_straight_sides(mesh, e)].push_back(
                     static_cast<std::int32_t>(e));
         for (const bool straight : {false, true}) {
             if (elements[straight].empty()) continue;
