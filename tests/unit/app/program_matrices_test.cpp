@@ -86,6 +86,8 @@ TEST_F(ProgramMatrices, AffineDisplacement_HasTheEnergyOfTheStrain) {
         EXPECT_EQ(system["n_dof"], 162);
         EXPECT_EQ(system["t_s"], 0.0);
         EXPECT_EQ(system["symmetric"], true);
+        EXPECT_EQ(system["elements"].size(), element == std::string("solid.element=cst") ? 128u : 32u);
+        EXPECT_EQ(system["elements"][0].size(), element == std::string("solid.element=cst") ? 3u : 6u);
         EXPECT_EQ(system["overrides"], set);
         const auto nodes = system["nodes_m"].get<std::vector<std::array<double, 2>>>();
         std::vector<double> u;
