@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/check_case.hpp"
+#include "app/matrices.hpp"
 #include "app/run_case.hpp"
 #include "app/threads.hpp"
 #include "base/errors.hpp"
@@ -52,6 +53,11 @@ void add_case_options(CLI::App& command, RunArguments& run) {
         ->type_name("N");
 }
 
+void add_results_options(CLI::App& command, RunArguments& run, const char* restart) {
+    command.add_option("--out", run.out, "folder of the results [results/CASE]")->type_name("DIR");
+    command.add_option("--restart", run.restart, restart)->type_name("FILE");
+}
+
 /// The words of the command line, last first as CLI11 takes them. `--set a=1 b=2 case.toml` becomes `--set a=1 --set
 /// b=2 case.toml`: left to itself, an option with many values would take the deck for one.
 std::vector<std::string> words_of(int argc, char** argv) {
@@ -76,6 +82,10 @@ int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
     }
     wait_briefly(run.threads, argv);
     if (app.got_subcommand("run")) return run_case(run);
+    if (app.got_subcommand("matrices")) {
+        write_matrices(run);
+        return exit_code::done;
+    }
     check_case(run.deck, run.set, run.threads, std::cout);
     return exit_code::done;
 }
@@ -91,12 +101,15 @@ int main(int argc, char** argv) {
     RunArguments& run = arguments.run;
     CLI::App* run_command = app.add_subcommand("run", "run a case; results go to a folder of their own");
     add_case_options(*run_command, run);
-    run_command->add_option("--out", run.out, "folder of the results [results/CASE]")->type_name("DIR");
-    run_command->add_option("--restart", run.restart, "go on from a checkpoint.h5")->type_name("FILE");
+    add_results_options(*run_command, run, "go on from a checkpoint.h5");
     run_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* check_command =
         app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");
     add_case_options(*check_command, run);
+    CLI::App* matrices_command =
+        app.add_subcommand("matrices", "write stiffness, damping and mass in Matrix Market format");
+    add_case_options(*matrices_command, run);
+    add_results_options(*matrices_command, run, "of the state of a checkpoint.h5 [of the start]");
     CLI::App* list_command = app.add_subcommand("list", "list what a deck can name: elements, materials, loads, ...");
     list_command->add_option("topic", arguments.topic, "one of them only")->type_name("");
 
@@ -108,7 +121,8 @@ int main(int argc, char** argv) {
         return argc > 1 ? exit_code::done : exit_code::bad_input;
     } catch (const CLI::ExtrasError& error) {
         if (!app.get_subcommands().empty()) return app.exit(error), exit_code::bad_input;
-        std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1], suggestion(argv[1], {"run", "check", "list"}));
+        std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1],
+                                 suggestion(argv[1], {"run", "check", "matrices", "list"}));
         return exit_code::bad_input;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/boundary_parts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/composite.hpp"
 #include "mesh/generators.hpp"
@@ -77,7 +78,9 @@ Mesh make_mesh(const MeshOptions& options, bool compt, const std::filesystem::pa
     MeshDraft draft = draft_of(options, base_dir);
     if (!options.curved) straighten_sides(draft);
     MeshReport own;
-    return finish(std::move(draft), compt, report ? *report : own);
+    Mesh mesh = finish(std::move(draft), compt, report ? *report : own);
+    name_parts(mesh, options.parts);
+    return mesh;
 }
 
 Mesh finish(MeshDraft draft, bool compt, MeshReport& report) {

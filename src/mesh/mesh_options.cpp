@@ -68,6 +68,17 @@ double composites_of_free_plate(const MeshOptions& options) {
     return n;
 }
 
+void validate_parts(std::vector<Problem>& problems, const std::vector<BoundaryPart>& parts) {
+    for (const BoundaryPart& part : parts) {
+        const auto [x, y] = part.from;
+        if (!(std::isfinite(x) && std::isfinite(y) && x <= part.to[0] && y <= part.to[1] && std::isfinite(part.to[0]) &&
+              std::isfinite(part.to[1])))
+            problems.push_back({fmt::format("mesh.parts `{}`", part.name),
+                                fmt::format("from = [{}, {}] must lie below and to the left of to = [{}, {}]", x, y,
+                                            part.to[0], part.to[1])});
+    }
+}
+
 }  // namespace
 
 double expected_composites(const MeshOptions& options) {
@@ -100,6 +111,7 @@ std::vector<Problem> validate(const MeshOptions& options) {
             validate_plate(problems, options);
             break;
     }
+    validate_parts(problems, options.parts);
     if (problems.empty()) {
         const double n = expected_composites(options);
         if (!(n <= max_composites))

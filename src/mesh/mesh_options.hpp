@@ -10,6 +10,14 @@
 
 namespace gneiss {
 
+/// A part of a boundary that gets a name of its own: its edges inside a box.
+struct BoundaryPart {
+    std::string name;
+    std::string of;                    ///< name of a boundary
+    std::array<double, 2> from{0, 0};  ///< lower left corner of the box, m
+    std::array<double, 2> to{0, 0};    ///< upper right corner, m, not below `from`
+};
+
 /// Where the mesh comes from: a file, or one of the built-in generators. SI units.
 struct MeshOptions {
     enum class Source { file, rectangle, plate_with_hole };
@@ -31,6 +39,8 @@ struct MeshOptions {
                                        ///< a composite's sub-edges are half of it
     Layout layout = Layout::free;      ///< structured has every symmetry of the square; free has none
     int seed = 0;                      ///< moves the first point of the hole's division, so that free meshes differ
+
+    std::vector<BoundaryPart> parts;
 
     bool curved = true;  ///< mid-side nodes on a curved boundary follow it; false: all sides straight
 };

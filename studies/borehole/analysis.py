@@ -145,8 +145,3 @@ def largest_filtered_difference(results: Results, case: Case, reference: Case) -
     """Largest relative L2 difference of the filtered radial velocity over the probes at PROBE_RADIUS."""
     return max(relative_l2(TIMES, results.filtered_velocity(case, d), results.filtered_velocity(reference, d))
                for d in DIRECTIONS)
-
-
-def observed_order(sub_edges: list[float], errors: list[float]) -> float:
-    """Slope of log(error) against log(size), by least squares."""
-    return float(np.polyfit(np.log(sub_edges), np.log(errors), 1)[0])

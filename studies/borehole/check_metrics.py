@@ -4,24 +4,9 @@ usage: check_metrics.py SUMMARY.json
 """
 from __future__ import annotations
 
-import json
-import math
 import sys
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Union
 
-Asked = Union[float, bool]
-
-
-@dataclass(frozen=True)
-class Bound:
-    """What is asked of a metric: a number is an upper bound, True or False the value itself."""
-
-    full: Asked
-    quick: Asked
-    why_quick: str = ""  # why the coarse study is held to something else
-
+from studies.common.bounds import Bound, main
 
 # The full study is held to what its description asks. The quick one has sub-edges three to four times as long, where
 # errors are of order 1 to 2; its bounds are 1.2 to 2.5 times what it gives: they catch a mistake, not a change of the mesh.
@@ -45,49 +30,5 @@ BOUNDS = {
 }
 
 
-def kept(asked: Asked, measured: object) -> bool:
-    """NaN, a missing value or one of another kind keeps no bound."""
-    if isinstance(asked, bool):
-        return measured is asked
-    return isinstance(measured, (int, float)) and not isinstance(measured, bool) \
-        and math.isfinite(measured) and measured <= asked
-
-
-def shown(value: object) -> str:
-    if isinstance(value, bool) or value is None:
-        return {True: "true", False: "false", None: "missing"}[value]
-    return f"{value:.3g}" if isinstance(value, (int, float)) else str(value)
-
-
-def check(summary: dict) -> tuple[str, bool]:
-    """The table asked/measured, and whether every bound is kept."""
-    quick = summary["extent"] == "quick"
-    metrics = summary["metrics"]
-    lines = [f"{'metric':44} {'asked':>12} {'measured':>12}"]
-    good = True
-    for name, bound in BOUNDS.items():
-        asked = bound.quick if quick else bound.full
-        measured = metrics.get(name)
-        fine = kept(asked, measured)
-        good = good and fine
-        wanted = shown(asked) if isinstance(asked, bool) else f"<= {shown(asked)}"
-        lines.append(f"{name:44} {wanted:>12} {shown(measured):>12}{'' if fine else '   MISSED'}")
-    lines += [f"{name:44} {'reported':>12} {shown(value):>12}" for name, value in metrics.items() if name not in BOUNDS]
-    return "\n".join(lines), good
-
-
-def main(arguments: list[str]) -> int:
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    summary = json.loads(Path(arguments[0]).read_text())
-    table, good = check(summary)
-    print(table)
-    if summary["extent"] == "quick":
-        print("quick: bounds are wider than those of the full study (check_metrics.py says why)")
-    print("every bound is kept" if good else "some bounds are missed")
-    return 0 if good else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:], BOUNDS, __doc__))

@@ -1,4 +1,4 @@
-"""Reads what a run leaves in its folder: probes.csv, history.csv, summary.json."""
+"""Reads what a run leaves in its folder: probes.csv, history.csv, summary.json; orders of errors over several runs."""
 from __future__ import annotations
 
 import csv
@@ -69,3 +69,8 @@ def find_number(summary: dict[str, Any], name: str) -> float:
     if len(found) != 1 or not isinstance(found[0], (int, float)):
         raise KeyError(f"{name!r}: found {found} in the summary, expected one number")
     return float(found[0])
+
+
+def observed_order(sizes: list[float], errors: list[float]) -> float:
+    """Slope of log(error) against log(size), by least squares."""
+    return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])

@@ -81,6 +81,7 @@ const std::vector<SectionDoc>& section_docs() {
     static const std::vector<SectionDoc> all{
         describe("deck", "the deck", {""}, case_section()),
         describe("mesh", "[mesh]", {"mesh"}, mesh_section()),
+        describe("mesh.parts", "mesh.parts", {"mesh.parts"}, part_section()),
         describe("solid", "[solid]", {"solid"}, solid_section()),
         describe("material", "[[material]]", {"material"}, material_section()),
         describe("material.constants", "material.constants", {"material.constants"}, constants_section()),

@@ -77,6 +77,19 @@ bool read_probe_name(const Value& value, TableReader&, ProbeOptions& out) {
 
 }  // namespace
 
+const Section<BoundaryPart>& part_section() {
+    using P = BoundaryPart;
+    static const Section<P> section{
+        {string("name", &P::name, {.required = true, .meaning = "of the part, for loads and boundary conditions"}),
+         string("of", &P::of, {.required = true, .meaning = "name of a boundary"}),
+         numbers("from", &P::from, {.unit = "m", .required = true, .meaning = "lower left corner of a box, [x, y]"}),
+         numbers("to", &P::to,
+                 {.unit = "m",
+                  .required = true,
+                  .meaning = "its upper right corner: edges inside and on its rim are the part"})}};
+    return section;
+}
+
 const Section<MeshOptions>& mesh_section() {
     using M = MeshOptions;
     const std::vector<Condition> rectangle{{"generator", {"rectangle"}}}, plate{{"generator", {"plate_with_hole"}}},
@@ -125,7 +138,8 @@ const Section<MeshOptions>& mesh_section() {
                   .meaning = "moves the first point on the hole, so that free meshes differ"}),
          boolean("curved", &M::curved,
                  {.only_for = plate_or_file,
-                  .meaning = "mid-side nodes follow a curved boundary; false: all sides straight"})},
+                  .meaning = "mid-side nodes follow a curved boundary; false: all sides straight"}),
+         tables("parts", &M::parts, part_section, {.meaning = "parts of boundaries that get a name of their own"})},
         check_mesh};
     return section;
 }

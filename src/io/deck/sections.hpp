@@ -10,6 +10,7 @@ namespace gneiss::deck {
 
 const Section<CaseOptions>& case_section();
 const Section<MeshOptions>& mesh_section();
+const Section<BoundaryPart>& part_section();
 const Section<SolidOptions>& solid_section();
 const Section<MaterialOptions>& material_section();
 const Section<LoadOptions>& load_section();

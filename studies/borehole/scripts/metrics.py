@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from studies.borehole.analysis import (Results, all_histories_difference, cavity_errors, front_speed_error,
-                                       largest_filtered_difference, observed_order, rotation_difference)
+                                       largest_filtered_difference, rotation_difference)
 from studies.borehole.cases import DIRECTIONS, MATERIALS, PLANS, POISSON_RATIOS, ROTATION_PAIRS, Case, Plan
-from studies.common.results import find_number, read_summary
+from studies.common.results import find_number, observed_order, read_summary
 
 
 def rotation(results: Results, cases: list[Case]) -> dict[str, dict]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from studies.borehole import analysis
 from studies.borehole.analysis import (Results, all_histories_difference, cavity, cavity_errors, front_speed_error,
-                                       observed_order, rotation_difference)
+                                       rotation_difference)
 from studies.borehole.cases import FRONT_RADII, PROBE_RADIUS, Case, deck, probes
 
 ISOTROPIC = Case("isotropic", 0.25, "horizontal", 100)
@@ -82,9 +82,6 @@ class TestAnalysis(unittest.TestCase):
     def test_Cavity_OfAnAnisotropicCase_IsRefused(self):
         with self.assertRaisesRegex(ValueError, "not isotropic"):
             cavity(Case("anisotropic", 0.0, "horizontal", 100))
-
-    def test_ObservedOrder_OfAPowerLaw_IsItsExponent(self):
-        self.assertAlmostEqual(observed_order([100, 50, 25], [3 * h**1.5 for h in (100, 50, 25)]), 1.5)
 
     def test_Probe_OfThePaper_IsThere(self):
         self.assertIn(PROBE_RADIUS, FRONT_RADII)

@@ -9,7 +9,7 @@ import numpy as np
 
 from studies.common.decks import overlaid, read_deck, write_deck
 from studies.common.fields import frame_path, read_frame, sample_on_grid
-from studies.common.results import find_number, read_summary, read_table
+from studies.common.results import find_number, observed_order, read_summary, read_table
 
 
 class InFolder(unittest.TestCase):
@@ -63,6 +63,11 @@ class TestResults(InFolder):
         self.assertEqual(find_number(summary, "balance_error"), 1e-5)
         with self.assertRaises(KeyError):
             find_number(summary, "absent")
+
+
+class TestOrders(unittest.TestCase):
+    def test_ObservedOrder_OfAPowerLaw_IsItsExponent(self):
+        self.assertAlmostEqual(observed_order([100, 50, 25], [3 * h**1.5 for h in (100, 50, 25)]), 1.5)
 
 
 class TestFields(InFolder):

@@ -97,6 +97,7 @@ height = 1
 origin = [-1, -0.5]
 cells = [4, 2]
 pattern = "crossed"
+parts = [{ name = "half", of = "top", from = [0, 0.5], to = [1, 0.5] }]
 [solid]
 plane = "stress"
 [[material]]

@@ -1,0 +1,78 @@
+#include "app/matrices.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/build_case.hpp"
+#include "app/checkpoints.hpp"
+#include "app/threads.hpp"
+#include "io/deck/deck.hpp"
+#include "io/output/atomic_file.hpp"
+#include "io/output/matrix_market.hpp"
+#include "io/output/version.hpp"
+#include "system/march.hpp"
+
+namespace gneiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The state that the deck starts from, or that of the checkpoint.
+State state_of(const RunArguments& arguments, const Case& built) {
+    State state = built.system->initial_state();
+    RunProgress progress;
+    if (arguments.restart) load_checkpoint(*arguments.restart, built, state, progress);
+    March march;  // of no length: events that are due, prescribed displacements
+    march.t_end = state.t;
+    march.run(*built.system, *built.integrator, state, arguments.restart.has_value());
+    return state;
+}
+
+nlohmann::ordered_json description(const RunArguments& arguments, const Case& built, const State& state) {
+    nlohmann::ordered_json json;
+    json["title"] = built.options.title;
+    json["version"] = version_string();
+    json["deck"] = fs::absolute(arguments.deck).string();
+    if (!arguments.set.empty()) json["overrides"] = arguments.set;
+    json["t_s"] = state.t;
+    json["n_dof"] = state.u.size();
+    json["dof_of_node"] = "2 node + component, nodes from 0; the matrices count rows and columns from 1";
+    json["symmetric"] = built.system->tangent()->symmetric();
+    std::vector<std::size_t> constrained;
+    for (const Constraint& constraint : built.system->constraints()) constrained.push_back(constraint.dof);
+    json["constrained_dofs"] = constrained;
+    json["nodes_m"] = built.mesh.nodes;
+    auto& elements = json["elements"] = nlohmann::ordered_json::array();
+    for (std::size_t e = 0; e < built.mesh.n_elements(); ++e)
+        elements.push_back(std::vector(built.mesh.element(e), built.mesh.element(e) + built.mesh.nodes_per_element()));
+    json["displacement_m"] = state.u;
+    std::vector<double> force(state.u.size());
+    built.system->force(state, Trial::of(state), force);
+    json["force_N"] = force;
+    return json;
+}
+
+}  // namespace
+
+void write_matrices(const RunArguments& arguments) {
+    use_threads(arguments.threads);
+    const Case built = build_case(read_deck(arguments.deck, arguments.set));
+    const State state = state_of(arguments, built);
+    const fs::path out = arguments.out.empty() ? fs::path("results") / arguments.deck.stem() : arguments.out;
+    make_folder(out);
+
+    const Tangent& tangent = *built.system->tangent();
+    std::vector<double> values(tangent.columns().size());
+    const auto write = [&](const char* name, const Tangent::Factors& factors, bool symmetric, const char* what) {
+        tangent.assemble(state, Trial::of(state), factors, values);
+        write_matrix_market(out / name, {tangent.row_starts(), tangent.columns(), values}, symmetric, what);
+    };
+    write("stiffness.mtx", {.stiffness = 1}, tangent.symmetric(), "stiffness, -df/du, N/m");
+    write("damping.mtx", {.damping = 1, .velocity = 1}, tangent.symmetric(), "damping, C - df/dv, N s/m");
+    write("mass.mtx", {.mass = 1}, true, "lumped mass, kg");
+    write_atomically(out / "system.json", description(arguments, built, state).dump() + '\n');
+}
+
+}  // namespace gneiss
