@@ -15,7 +15,7 @@
 namespace gneiss {
 namespace {
 
-constexpr double t_end = 2e-3;  ///< s, some twenty periods of the slowest mode's neighbours
+constexpr double t_end = 2e-3;  ///< s: waves cross the block once or twice
 
 struct Scheme {
     std::string name;
@@ -32,7 +32,8 @@ std::unique_ptr<Integrator> solver(typename Solver::Options options, double rtol
 }
 
 // Errors: some hundred steps of a local error of rtol. Order 2 with fixed steps: as measured, and confirmed by halving
-// in the contract of integrators.
+// in the contract of integrators. Balance: implicit schemes damp the vibrations that their steps do not resolve, after
+// the jumps of loads, and the ledger says so.
 const Scheme schemes[] = {
     {"CentralDifference", 2e-3, 1e-3,
      [] { return std::make_unique<CentralDifference>(CentralDifference::Options{.safety = 0.05}); }},
@@ -48,7 +49,7 @@ const Scheme schemes[] = {
          options.rtol = 1e-7;
          return std::make_unique<GeneralizedAlpha>(options);
      }},
-    {"CvodeBdf", 1e-3, 1e-4, [] { return solver<Cvode>({}, 1e-7); }},
+    {"CvodeBdf", 1e-3, 3e-3, [] { return solver<Cvode>({}, 1e-7); }},
     {"CvodeAdams", 1e-4, 1e-5,
      [] {
          Cvode::Options options;
@@ -56,15 +57,15 @@ const Scheme schemes[] = {
          options.iteration = Cvode::Iteration::functional;
          return solver<Cvode>(options, 1e-7);
      }},
-    {"Ida", 1e-3, 1e-4, [] { return solver<Ida>({}, 1e-7); }},
+    {"Ida", 1e-3, 3e-3, [] { return solver<Ida>({}, 1e-7); }},
     {"ArkodeExplicit", 1e-4, 1e-5, [] { return solver<Arkode>({}, 1e-7); }},
-    {"ArkodeImplicit", 1e-4, 1e-5,
+    {"ArkodeImplicit", 1e-4, 3e-3,
      [] {
          Arkode::Options options;
          options.table = "esdirk547l2sa_7_4_5";
          return solver<Arkode>(options, 1e-7);
      }},
-    {"ArkodeAdditive", 1e-4, 1e-5,
+    {"ArkodeAdditive", 1e-4, 3e-3,
      [] {
          Arkode::Options options;
          options.table = "ark548l2sa_8_4_5";
