@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
@@ -51,7 +52,12 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
         Trial trial = Trial::of(state);
         trial.t = t;
         trial.z = state.z;
-        system.force(state, trial, f);
+        try {
+            system.force(state, trial, f);
+        } catch (const InputError&) {
+            if (t == state.t) throw;
+            continue;  // a formula that has no value later may never be asked for one
+        }
         subtract_damping(system, state.v, f);
         for (const Constraint& constraint : system.constraints()) f[constraint.dof] = 0;
         for (std::size_t i = 0; i < f.size(); ++i) f[i] /= mass[i] * omega;

@@ -1,0 +1,115 @@
+// What CVODE, ARKODE and IDA share beyond the contract of integrators: tolerances, matrices, messages.
+
+#include <gmock/gmock.h>
+
+#include "integrators/arkode.hpp"
+#include "integrators/cvode.hpp"
+#include "integrators/ida.hpp"
+#include "support/one_thread.hpp"
+#include "support/oscillator_problems.hpp"
+
+namespace gneiss {
+namespace {
+
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+template <class Options>
+std::vector<std::string> keys_of_problems(const Options& options) {
+    try {
+        options.validate();
+    } catch (const InputError& error) {
+        std::vector<std::string> keys;
+        for (const Problem& problem : error.problems()) keys.push_back(problem.where);
+        return keys;
+    }
+    return {};
+}
+
+template <class Options>
+Options spoilt() {
+    Options options;
+    options.rtol = 0;
+    options.longest = -1;
+    options.scales = {-1, -1, -1};
+    return options;
+}
+
+TEST(SundialsOde, Options_AllProblemsAtOnce) {
+    auto cvode = spoilt<Cvode::Options>();
+    cvode.max_order = 6;
+    EXPECT_THAT(keys_of_problems(cvode),
+                UnorderedElementsAre("integrator.rtol", "integrator.longest", "integrator.displacement_scale",
+                                     "integrator.velocity_scale", "integrator.stress_scale", "integrator.max_order"));
+    auto ida = spoilt<Ida::Options>();
+    ida.max_order = -1;
+    EXPECT_EQ(keys_of_problems(ida).size(), 6u);
+    auto arkode = spoilt<Arkode::Options>();
+    arkode.dt = -1;
+    EXPECT_EQ(keys_of_problems(arkode).size(), 6u);
+    cvode = {};
+    cvode.method = Cvode::Method::adams;
+    cvode.max_order = 12;
+    EXPECT_THAT(keys_of_problems(cvode), testing::IsEmpty());
+}
+
+TEST(SundialsOde, UnknownTable_NamesAllThereAre) {
+    Arkode::Options options;
+    options.table = "rk4";
+    try {
+        Arkode integrator(options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("given `rk4`, must be one of heun_euler_2_1_2, knoth_wolke_3_3,"));
+    }
+}
+
+TEST(SundialsOde, SystemWithoutTangent_OnlyExplicitAndFunctionalOnesTakeIt) {
+    test::OscillatorModel model = test::two_nodes();
+    model.has_tangent = false;
+    const test::Oscillator system(model);
+    State state = system.initial_state();
+    Cvode::Options functional;
+    functional.iteration = Cvode::Iteration::functional;
+    Cvode newton({}), free_of_matrices(functional);
+    EXPECT_THROW(newton.start(system, state, StartReason::fresh), InputError);
+    EXPECT_NO_THROW(free_of_matrices.start(system, state, StartReason::fresh));
+    Arkode explicit_one({});
+    EXPECT_NO_THROW(explicit_one.start(system, state, StartReason::fresh));
+}
+
+TEST(SundialsOde, LinearProblem_TangentsServeForManySteps) {
+    const test::Oscillator system(test::two_nodes());
+    Cvode integrator({});
+    test::march_oscillator(system, integrator);
+    const SundialsOde::Counts counts = integrator.counts();
+    EXPECT_GT(counts.steps, 100u);
+    // CVODE asks for new ones after 50 steps, and for a new factorisation where gamma has moved by a third
+    EXPECT_LT(counts.linearisations, counts.steps / 20);
+    EXPECT_LT(counts.factorisations, counts.steps / 3);
+}
+
+TEST(SundialsOde, GivenScales_LoosenTheTolerance) {
+    const test::Oscillator system(test::two_nodes());
+    const auto steps = [&](double scale) {
+        Cvode::Options options;
+        options.scales = {scale, 5 * scale, 0};
+        Cvode integrator(options);
+        test::march_oscillator(system, integrator);
+        return integrator.counts().steps;
+    };
+    EXPECT_GT(steps(0.1), steps(10) * 3 / 2);
+}
+
+TEST(SundialsOde, NothingMoves_NothingHappens) {
+    test::OscillatorModel model = test::two_nodes();
+    model.initial_u = model.initial_v = test::Vector::Zero(4);
+    const test::Oscillator system(model);
+    Cvode integrator({});
+    const State state = test::march_oscillator(system, integrator);
+    EXPECT_EQ(state.u, std::vector<double>(4, 0.0));
+    EXPECT_EQ(state.v, std::vector<double>(4, 0.0));
+}
+
+}  // namespace
+}  // namespace gneiss
