@@ -2,13 +2,14 @@
 # Runs a study: sets up what is missing, builds the program, runs every case, leaves numbers and figures.
 #
 # usage: studies/run.sh NAME [--quick] [--jobs N]
-#   NAME       a folder of studies/ with a Snakefile: borehole
+#   NAME       a folder of studies/ with a Snakefile: borehole, locking
 #   --quick    coarse meshes, about a minute: what CI runs
 #   --jobs N   cores to use (default: number of cores)
 #
 # Results: results/NAME/summary.json, results/NAME/figures/*.png, the runs in results/NAME/cases/, their logs in
 # results/NAME/logs/. Calling it again goes on where it stopped; what is there and up to date is not computed again.
-# $GNEISS_PRESET names the preset to build with (default: release).
+# $GNEISS_PRESET names the preset to build with (default: release). A study that compares with deal.II does so where
+# deal.II is installed, and says what it has left out where it is not.
 # Exit status: 0 if every run came to its end and every metric keeps its bound, 2 for wrong use, 1 otherwise.
 set -euo pipefail
 
@@ -33,7 +34,7 @@ done
 
 preset=${GNEISS_PRESET:-release}
 root=$PWD results=$PWD/results/$name
-program=$root/build/$preset/src/app/gneiss
+program=$root/build/$preset/src/app/gneiss crosscheck=$root/build/$preset/tests/crosscheck/gneiss_crosscheck
 
 began=0
 step() { began=$SECONDS; printf '\n[%s] %s\n' "$1" "$2"; }
@@ -47,7 +48,15 @@ took
 step 2/4 "building the program with preset $preset in build/$preset: some minutes the first time"
 cmake --preset "$preset" >/dev/null \
     || fail "configuring failed; if build/$preset is left over from another place, delete it"
-NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target gneiss_app </dev/null \
+targets=(gneiss_app)
+if grep -q crosscheck "studies/$name/Snakefile"; then
+    if [[ $(cmake --build --preset "$preset" --target help) == *gneiss_crosscheck_app* ]]; then
+        targets+=(gneiss_crosscheck_app)
+    else
+        echo "      deal.II is not installed (Debian package libdeal.ii-dev): what needs it is skipped"
+    fi
+fi
+NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target "${targets[@]}" </dev/null \
     || fail "the build failed; the first error is above"
 [[ -x $program ]] || fail "the build left no $program"
 took
@@ -56,6 +65,7 @@ mkdir -p "$results"
 step 3/4 "study $name, $profile, $jobs jobs at once; runs in results/$name/cases"
 snakemake=(/usr/bin/snakemake -s "studies/$name/Snakefile" --directory "$results" --cores "$jobs"
            --config "program=$program" "profile=$profile")
+[[ ${targets[*]} != *crosscheck* ]] || snakemake+=("crosscheck=$crosscheck")
 # A run that was killed leaves a lock behind. Nobody else writes into this folder: take it away.
 "${snakemake[@]}" --unlock >/dev/null 2>&1 || true
 # Of snakemake's talk: what begins, how far it is, and everything from the first error on.

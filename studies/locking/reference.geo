@@ -1,6 +1,6 @@
 // The unit square for the reference solution of the spread load: fine where the solution is singular, at the ends of
 // the supports, of the load, and at the corner where the two loaded edges meet.
-DefineConstant[ h = 0.05, fine = 1e-4 ];
+DefineConstant[ h = 0.03, fine = 1e-5 ];
 Point(1) = {0, 0, 0, h};
 Point(2) = {1, 0, 0, fine};
 Point(3) = {1, 0.75, 0, fine};

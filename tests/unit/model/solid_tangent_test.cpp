@@ -51,19 +51,6 @@ const Choice choices[] = {
     {"ComptHypoViscous", true, false, mean, strain, munjiza, hypo, conjugate, true, false},
 };
 
-Eigen::MatrixXd dense(const Tangent& tangent, const State& accepted, const Trial& trial,
-                      const Tangent::Factors& factors) {
-    const auto n = static_cast<Eigen::Index>(tangent.row_starts().size() - 1);
-    std::vector<double> values(tangent.columns().size(), 1e300);
-    tangent.assemble(accepted, trial, factors, values);
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index row = 0; row < n; ++row)
-        for (auto k = tangent.row_starts()[static_cast<std::size_t>(row)];
-             k < tangent.row_starts()[static_cast<std::size_t>(row) + 1]; ++k)
-            matrix(row, tangent.columns()[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
-    return matrix;
-}
-
 /// -df/d(u or v) at a trial by central differences of order 4, the steps strains of 1e-5: round-off and truncation
 /// (moduli that change by 1e-3 in a step, to the fourth power) are below 1e-9 of the largest entry.
 Eigen::MatrixXd differences(const SemiDiscrete& system, const State& accepted, const State& at, bool by_velocity) {
@@ -137,10 +124,10 @@ protected:
 
 TEST_P(SolidTangentOf, AwayFromTheAcceptedState_IsTheDerivativeOfTheForce) {
     const Tangent& tangent = *solid_.system->tangent();
-    const Eigen::MatrixXd by_u = dense(tangent, accepted_, Trial::of(at_), {.stiffness = 1});
+    const Eigen::MatrixXd by_u = test::dense(tangent, accepted_, Trial::of(at_), {.stiffness = 1});
     const Eigen::MatrixXd expected = differences(*solid_.system, accepted_, at_, false);
     EXPECT_LE(largest(by_u - expected), 1e-8 * largest(expected));
-    const Eigen::MatrixXd by_v = dense(tangent, accepted_, Trial::of(at_), {.velocity = 1});
+    const Eigen::MatrixXd by_v = test::dense(tangent, accepted_, Trial::of(at_), {.velocity = 1});
     if (GetParam().viscous) {
         const Eigen::MatrixXd expected_by_v = differences(*solid_.system, accepted_, at_, true);
         EXPECT_LE(largest(by_v - expected_by_v), 1e-8 * largest(expected_by_v));
@@ -152,7 +139,7 @@ TEST_P(SolidTangentOf, AwayFromTheAcceptedState_IsTheDerivativeOfTheForce) {
 TEST_P(SolidTangentOf, Symmetry_IsWhatItSays) {
     const Tangent& tangent = *solid_.system->tangent();
     EXPECT_EQ(tangent.symmetric(), GetParam().symmetric);
-    const Eigen::MatrixXd matrix = dense(tangent, accepted_, Trial::of(at_), {.stiffness = 1});
+    const Eigen::MatrixXd matrix = test::dense(tangent, accepted_, Trial::of(at_), {.stiffness = 1});
     const double asymmetry = largest(matrix - matrix.transpose()) / largest(matrix);
     if (GetParam().symmetric)
         EXPECT_LE(asymmetry, 1e-14);
@@ -186,7 +173,8 @@ TEST(SolidTangent, MassAndDamping_StandOnTheDiagonal) {
     what.boundaries = {absorbing};
     const test::Solid solid = test::distorted_solid(false, what);
     const State state = solid.system->initial_state();
-    const Eigen::MatrixXd matrix = dense(*solid.system->tangent(), state, Trial::of(state), {.mass = 2, .damping = 5});
+    const Eigen::MatrixXd matrix =
+        test::dense(*solid.system->tangent(), state, Trial::of(state), {.mass = 2, .damping = 5});
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
         expected(i, i) = (2 + 5 * 3) * solid.system->lumped_mass()[static_cast<std::size_t>(i)];
@@ -210,11 +198,11 @@ TEST(SolidTangent, FollowerPressure_IsTheDerivativeOfTheForce) {
     state.last_event = 0;
     const Tangent& tangent = *solid.system->tangent();
     EXPECT_FALSE(tangent.symmetric());
-    const Eigen::MatrixXd matrix = dense(tangent, state, Trial::of(state), {.stiffness = 1});
+    const Eigen::MatrixXd matrix = test::dense(tangent, state, Trial::of(state), {.stiffness = 1});
     const Eigen::MatrixXd expected = differences(*solid.system, state, state, false);
     EXPECT_LE(largest(matrix - expected), 1e-8 * largest(expected));
     const test::Solid unloaded = test::distorted_solid(true);
-    const Eigen::MatrixXd without = dense(*unloaded.system->tangent(), state, Trial::of(state), {.stiffness = 1});
+    const Eigen::MatrixXd without = test::dense(*unloaded.system->tangent(), state, Trial::of(state), {.stiffness = 1});
     EXPECT_GT(largest(matrix - without), 1e-3 * largest(expected)) << "the pressure is there";
 }
 

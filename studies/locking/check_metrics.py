@@ -1,0 +1,32 @@
+"""Compares the metrics of a summary.json with what the study has to show; exit status 1 if one misses its bound.
+
+usage: check_metrics.py SUMMARY.json
+"""
+from __future__ import annotations
+
+import sys
+
+from studies.common.bounds import Bound, main
+
+# The quick study ends at 16 instead of 64 composites along a side (32 for the table). Bounds that are wider there are
+# 1.2 to 2.5 times what it gives: they catch a mistake, not a change of the mesh.
+COARSE = "discretisation: 16 composites along a side instead of 64"
+BOUNDS = {
+    "cst_dealii_p1_difference_max": Bound(1e-8, 1e-8, may_skip=True),
+    "locking_table_difference_max": Bound(5e-4, 5e-4),
+    "compt_traction_error_finest": Bound(0.005, 0.03, COARSE),
+    "compt_traction_order": Bound(1.5, 1.0, COARSE, at_least=True),
+    "plane_stress_offset_spread": Bound(0.01, 0.01),
+    "cst_locking_ratio_coarsest": Bound(0.02, 0.02),
+    "checkerboard_ratio": Bound(0.1, 0.1),
+    "checkerboard_ratio_worst_mesh": Bound(0.1, 0.15, COARSE),
+    "kinsol_relaxation_difference_max": Bound(1e-6, 1e-6),
+    "inf_sup_min_ratio": Bound(0.8, 0.8, at_least=True),
+    "inf_sup_pressures_without_control": Bound(0, 0),
+    "compt_flutter_max_nu0.25": Bound(1e-9, 1e-9),
+    "compt_flutter_max_nu0.4999": Bound(1e-9, 1e-9),
+}
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:], BOUNDS, __doc__))

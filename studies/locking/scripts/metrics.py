@@ -1,0 +1,211 @@
+"""Workflow step: the metrics of the study from what the runs left, into summary.json. README.md defines each."""
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+
+from studies.common.bounds import SKIPPED
+from studies.common.results import observed_order, read_table
+from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard, pressure,
+                                      relative_difference)
+from studies.locking.cases import FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, Plan
+from studies.locking.spectrum import flutter, growth_rate
+
+ORDER_FAMILIES = ["uniform_right", "uniform_left", "alternating"]  # where an order is asked of the spread load
+LAST_LEVELS = 4  # meshes from which orders and the spread of an offset are taken
+
+
+def corner(plane: str, element: str, family: str, n: int, size: str = "small") -> Case:
+    return Case("corner", plane, element, family, n, size)
+
+
+def displacements(results: Results, plan: Plan) -> dict:
+    """Corner displacement over force, m/N, by load size, plane, element, mesh and number of composites."""
+    found: dict = {}
+    for case in plan.corner_cases() + plan.centre_cases() + plan.finite_cases():
+        levels = found.setdefault(case.size, {}).setdefault(case.plane, {}).setdefault(case.element, {}) \
+            .setdefault(case.family, {})
+        levels[str(case.n)] = results.corner(case).tolist()
+    return found
+
+
+def table_differences(results: Results, plan: Plan) -> dict[str, dict[str, float]]:
+    """u_x of the corner against VERIFICATION 7, relative."""
+    there = {case.name for case in plan.all_cases()}
+    found: dict = {}
+    for element, column in LOCKING_TABLE.items():
+        for n, value in column.items():
+            case = corner("strain", element, "uniform_right", n)
+            if case.name in there:
+                found.setdefault(element, {})[str(n)] = float(results.corner(case)[0] / TABLE_UNIT / value - 1)
+    return found
+
+
+def offsets(results: Results, plan: Plan) -> dict:
+    """COMPT - CST corner displacement in plane stress, m/N, and how much it changes over the last meshes."""
+    by_family = {}
+    for family, levels in plan.corner.items():
+        by_level = {n: results.corner(corner("stress", "compt", family, n)) -
+                    results.corner(corner("stress", "cst", family, n)) for n in levels}
+        last = np.array([by_level[n] for n in levels[-LAST_LEVELS:]])
+        by_family[family] = {"offset": {str(n): offset.tolist() for n, offset in by_level.items()},
+                             "spread": float(np.max(np.ptp(last, axis=0) / np.abs(last.mean(axis=0))))}
+    return by_family
+
+
+def spread_load(results: Results, plan: Plan, reference: float) -> dict:
+    """Errors in compliance by element and mesh, with the order over the last meshes."""
+    found: dict = {}
+    for element in ("cst", "compt"):
+        for family in FAMILIES:
+            cases = [Case("spread", "strain", element, family, n) for n in plan.spread]
+            compliance = [results.compliance(case) for case in cases]
+            errors = [value / reference - 1 for value in compliance]
+            last = slice(-LAST_LEVELS, None)
+            found.setdefault(element, {})[family] = {
+                "compliance": dict(zip(map(str, plan.spread), compliance)),
+                "error": dict(zip(map(str, plan.spread), errors)),
+                "order": observed_order([1 / n for n in plan.spread[last]], [abs(error) for error in errors[last]]),
+                "corner": {str(case.n): results.corner(case).tolist() for case in cases}}
+    return found
+
+
+def checkerboards(results: Results, plan: Plan) -> dict:
+    """The measure of oscillation of the pressure, by element, mesh and number of composites; plane strain."""
+    found: dict = {}
+    for case in plan.corner_cases():
+        if case.plane == "strain":
+            frame = results.frame(case)
+            volumetric = frame.cell_data["munjiza_stress"][:, 0]
+            levels = found.setdefault(case.element, {}).setdefault(case.family, {})
+            levels[str(case.n)] = {"pressure": checkerboard(frame, pressure(frame)),
+                                   "volumetric": checkerboard(frame, volumetric)}
+    return found
+
+
+def finest(levels: dict):
+    return levels[max(levels, key=int)]
+
+
+def coarsest(levels: dict):
+    return levels[min(levels, key=int)]
+
+
+def inf_sup(plan: Plan, folder: Path) -> dict:
+    found: dict = {}
+    for case in plan.inf_sup_cases():
+        entry = json.loads((folder / f"{case.name}.json").read_text())
+        found.setdefault(case.element, {}).setdefault(case.family, {})[str(case.n)] = entry
+    return found
+
+
+def inf_sup_ratio(levels: dict) -> float:
+    return finest(levels)["beta"] / coarsest(levels)["beta"]
+
+
+def centre_and_mean(plan: Plan, spectra: Path, vibrations: Path) -> dict:
+    """Flutter in the eigenvalues, and the growth of a free vibration against the largest Im omega, 1/s."""
+    found: dict = {"flutter": {}, "growth": {}}
+    largest = {}
+    for case in plan.spectrum_cases():
+        spectrum = json.loads((spectra / f"{case.name}.json").read_text())
+        for nu, pairs in spectrum.items():
+            omega = np.array([complex(*pair) for pair in pairs])
+            found["flutter"].setdefault(case.element, {}).setdefault(nu, {})[str(case.n)] = flutter(omega)
+            largest[case.element, nu, case.n] = float(np.max(omega.imag))
+    for vibration in plan.vibrations():
+        history = read_table(vibrations / vibration.name / "history.csv")
+        found["growth"].setdefault(vibration.element, {})[f"{vibration.nu:g}"] = {
+            "measured": growth_rate(history.t[1:], history["kinetic"][1:]),
+            "eigenvalues": largest[vibration.element, f"{vibration.nu:g}", vibration.n]}
+    return found
+
+
+def against_deal_ii(results: Results, plan: Plan) -> dict:
+    """CST against P1, node by node; corner displacements and compliances of P2 and Taylor-Hood."""
+    found: dict = {"p1": {}, "corner": {}, "compliance": {}}
+    for case, element in plan.peers():
+        peer = results.peer(case, element)
+        if element == "p1":
+            found["p1"][case.name] = relative_difference(results.displacement(case), peer["displacement"])
+        where = found["corner"].setdefault(case.load, {}).setdefault(case.plane, {}).setdefault(element, {})
+        where.setdefault(case.family, {})[str(case.n)] = (np.array(peer["probes"]["corner"]) / case.force).tolist()
+        if case.load == "spread":
+            found["compliance"].setdefault(element, {})[str(case.n)] = peer["compliance"] / case.force**2
+    return found
+
+
+def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> dict:
+    u = displacements(results, plan)
+    table = table_differences(results, plan)
+    offset = offsets(results, plan)
+    boards = checkerboards(results, plan)
+    beta = inf_sup(plan, folder / "inf_sup")
+    unstable = centre_and_mean(plan, folder / "spectra", folder / "vibrations")
+    pairs = {a.name: relative_difference(results.displacement(a), results.displacement(b))
+             for a, b in plan.relaxation_pairs()}
+    skipped = []
+    peers, reference = {}, {"stored": REFERENCE_COMPLIANCE}
+    if with_deal_ii:
+        peers = against_deal_ii(results, plan)
+        force = Case("spread", "strain", "compt", "free", 0).force
+        for k in plan.reference:
+            found = json.loads((folder / f"crosscheck/reference-{k}.json").read_text())
+            reference[f"refined {k} times"] = found["compliance"] / force**2
+        reference["used"] = reference[f"refined {plan.reference[-1]} times"]
+    else:
+        skipped.append("deal.II is not there: no comparison of CST with P1, no P2 and Taylor-Hood elements; the spread "
+                       "load is compared with the stored reference")
+        reference["used"] = REFERENCE_COMPLIANCE
+    spread = spread_load(results, plan, reference["used"])
+    last = str(plan.spread[-1])
+    cst_board, compt_board = (finest(boards[element]["uniform_right"])["pressure"] for element in ("cst", "compt"))
+    ratio_of = {family: finest(boards["compt"][family])["pressure"] / finest(boards["cst"][family])["pressure"]
+                for family in FAMILIES}
+    strain = u["small"]["strain"]
+
+    metrics = {
+        "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
+        "locking_table_difference_max": max(abs(d) for column in table.values() for d in column.values()),
+        "compt_traction_error_finest": max(abs(spread["compt"][f]["error"][last]) for f in ORDER_FAMILIES),
+        "compt_traction_order": min(spread["compt"][f]["order"] for f in ORDER_FAMILIES),
+        "cst_traction_error_finest": max((spread["cst"][f]["error"][last] for f in ORDER_FAMILIES), key=abs),
+        **{f"cst_traction_error_finest_{f}": spread["cst"][f]["error"][last] for f in ORDER_FAMILIES},
+        **{f"traction_corner_displacement_{e}_finest": spread[e]["uniform_right"]["corner"][last][0]
+           for e in ("compt", "cst")},
+        "plane_stress_offset_spread": offset["uniform_right"]["spread"],
+        "cst_locking_ratio_coarsest": coarsest(strain["cst"]["uniform_right"])[0]
+        / coarsest(strain["compt"]["uniform_right"])[0],
+        "checkerboard_cst": cst_board,
+        "checkerboard_compt": compt_board,
+        "checkerboard_ratio": compt_board / cst_board,
+        "checkerboard_ratio_worst_mesh": max(ratio_of.values()),
+        "kinsol_relaxation_difference_max": max(pairs.values(), default=SKIPPED),
+        "inf_sup_min_ratio": min(inf_sup_ratio(levels) for levels in beta["compt"].values()),
+        "inf_sup_smallest": min(finest(levels)["beta"] for levels in beta["compt"].values()),
+        "inf_sup_pressures_without_control": max(entry["n_without_control"] for levels in beta["compt"].values()
+                                                 for entry in levels.values()),
+        "inf_sup_min_ratio_cst": min(inf_sup_ratio(levels) for levels in beta["cst"].values()),
+        **{f"{element}_flutter_max_nu{nu:g}": max(unstable["flutter"][element][f"{nu:g}"].values())
+           for nu in SIDE_RATIOS for element in ("compt", "centre")},
+        **{f"{element}_growth_rate_nu{nu:g}": unstable["growth"][element][f"{nu:g}"]["measured"]
+           for nu in SIDE_RATIOS for element in ("compt", "centre")},
+    }
+    details = {
+        "corner_displacement": u, "locking_table_difference": table, "plane_stress_offset": offset,
+        "spread_load": spread, "reference_compliance": reference, "checkerboard": boards,
+        "checkerboard_ratio": ratio_of, "kinsol_relaxation_difference": pairs, "inf_sup": beta,
+        "centre_and_mean": unstable, "deal_ii": peers,
+    }
+    return {"study": "locking", "metrics": metrics, "skipped": skipped, "details": details}
+
+
+def main(folder: Path, profile: str, with_deal_ii: bool, out: Path) -> None:
+    results = Results(folder / "cases", folder / "crosscheck")
+    summary = {"status": "done", "extent": profile} | collect(results, PLANS[profile], folder, with_deal_ii)
+    summary["written"] = time.strftime("%Y-%m-%dT%H:%M:%S%z")
+    out.write_text(json.dumps(summary, indent=1) + "\n")
+
+
+main(Path("."), snakemake.params.profile, snakemake.params.with_deal_ii, Path(snakemake.output[0]))  # noqa: F821
