@@ -20,20 +20,6 @@ std::vector<std::size_t> constrained(const SemiDiscrete& system) {
     return dofs;
 }
 
-/// y = A x
-void multiply(const SparsePattern& pattern, std::span<const double> values, std::span<const double> x,
-              std::span<double> y) {
-    parallel_ranges(y.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) {
-            double sum = 0;
-            for (auto k = static_cast<std::size_t>(pattern.row_starts[row]);
-                 k < static_cast<std::size_t>(pattern.row_starts[row + 1]); ++k)
-                sum += values[k] * x[static_cast<std::size_t>(pattern.columns[k])];
-            y[row] = sum;
-        }
-    });
-}
-
 }  // namespace
 
 NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const std::string& solver,

@@ -104,7 +104,7 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     if (free_->n() == 0) return;  // nothing to solve for
     solver_ = make_linear_solver(options_.solver, tangent->symmetric());
     solver_->analyse(free_->pattern());
-    matrix_ = std::make_unique<SundialsMatrix>(free_->pattern(), context_);
+    matrix_ = std::make_unique<SundialsMatrix>(free_->pattern(), values_, context_);  // the free ones in front
     linear_ = std::make_unique<SundialsSolver>(*solver_, *matrix_, context_);
     for (OwnedVector* vector : {&unknowns_, &unknown_scale_, &force_scale_}) *vector = new_vector(free_->n(), context_);
 
@@ -194,11 +194,11 @@ void QuasiStatic::predict(const SemiDiscrete& system, const State& state) {
     system.force(state, old, f_);
     ++counts_.evaluations;
     system.tangent()->assemble(state, old, {.stiffness = 1}, values_);
+    free_->take(f_, right_);
+    free_->subtract_fixed(values_, change_, right_);
     free_->take_values(values_, matrix_->values());
     ++counts_.factorisations;
     solver_->factorise(matrix_->values());
-    free_->take(f_, right_);
-    free_->subtract_fixed(values_, change_, right_);
     solver_->solve(right_, right_);
     const std::span<double> u = values_of(unknowns_.get());
     free_->take(state.u, u);

@@ -74,19 +74,18 @@ private:
 class SundialsMatrix {
 public:
     /// @param pattern  its arrays have to outlive this
-    SundialsMatrix(const SparsePattern& pattern, SUNContext context);
+    /// @param values   begin with those of the pattern; have to outlive this
+    SundialsMatrix(const SparsePattern& pattern, std::span<double> values, SUNContext context);
     SundialsMatrix(const SundialsMatrix&) = delete;
     SundialsMatrix& operator=(const SundialsMatrix&) = delete;
     ~SundialsMatrix() { SUNMatFreeEmpty(matrix_); }
 
     SUNMatrix get() const { return matrix_; }
-    std::span<double> values() { return values_; }
+    std::span<double> values() const { return values_; }
 
 private:
-    static int multiply(SUNMatrix matrix, N_Vector x, N_Vector y);
-
     SparsePattern pattern_;
-    std::vector<double> values_;
+    std::span<double> values_;
     SUNMatrix matrix_;
 };
 
@@ -99,12 +98,10 @@ public:
     ~SundialsSolver() { SUNLinSolFreeEmpty(linear_solver_); }
 
     SUNLinearSolver get() const { return linear_solver_; }
-    /// Why the last factorisation failed; empty if it did not.
-    const std::string& failure() const { return failure_; }
+    /// Why the last factorisation or solve failed; empty if it did not.
+    const std::string& failure() const { return guard_.failure(); }
     /// Throws what no other matrix would cure, once SUNDIALS has returned.
-    void rethrow_unrecoverable() {
-        if (const auto error = std::exchange(unrecoverable_, nullptr)) std::rethrow_exception(error);
-    }
+    void rethrow_unrecoverable() { guard_.rethrow(); }
 
 private:
     static int setup(SUNLinearSolver self, SUNMatrix);
@@ -113,8 +110,7 @@ private:
     LinearSolver& solver_;
     SundialsMatrix& matrix_;
     SUNLinearSolver linear_solver_;
-    std::string failure_;
-    std::exception_ptr unrecoverable_;
+    CallbackGuard guard_;
 };
 
 }  // namespace gneiss

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "linear/linear_solver.hpp"
+#include "linear/ordering.hpp"
 
 namespace gneiss {
 namespace {
@@ -15,6 +16,8 @@ public:
         common_.print = 0;
         common_.quick_return_if_not_posdef = 1;
         common_.final_ll = 1;  // L D L^T would go on past negative pivots
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_GIVEN;
     }
     Cholmod(const Cholmod&) = delete;
     Cholmod& operator=(const Cholmod&) = delete;
@@ -30,7 +33,8 @@ public:
         pattern_ = pattern;
         cholmod_l_free_factor(&factor_, &common_);
         cholmod_sparse a = matrix(nullptr);
-        factor_ = cholmod_l_analyze(&a, &common_);
+        Ordering ordering = fill_reducing_ordering(pattern);
+        factor_ = cholmod_l_analyze_p(&a, ordering.unknowns.data(), nullptr, 0, &common_);
         if (factor_ == nullptr) throw std::bad_alloc();
     }
 

@@ -1,5 +1,7 @@
 #include "linear/free_matrix.hpp"
 
+#include <algorithm>
+
 namespace gneiss {
 
 FreeMatrix::FreeMatrix(const SparsePattern& full, std::span<const std::size_t> fixed) {
@@ -13,13 +15,18 @@ FreeMatrix::FreeMatrix(const SparsePattern& full, std::span<const std::size_t> f
             free_.push_back(dof);
         }
     }
+    row_starts_.reserve(free_.size() + 1);
+    columns_.reserve(full.n_nonzero());
     row_starts_.push_back(0);
     for (std::size_t row = 0; row < free_.size(); ++row) {
         for (auto k = full.row_starts[free_[row]]; k < full.row_starts[free_[row] + 1]; ++k) {
             const std::int64_t column = number[static_cast<std::size_t>(full.columns[static_cast<std::size_t>(k)])];
             if (column >= 0) {
                 columns_.push_back(column);
-                source_.push_back(k);
+                if (!runs_.empty() && runs_.back().from + runs_.back().length == k)
+                    ++runs_.back().length;
+                else
+                    runs_.push_back({k, 1});
             } else {
                 couplings_.push_back({k, row, static_cast<std::size_t>(-1 - column)});
             }
@@ -29,7 +36,12 @@ FreeMatrix::FreeMatrix(const SparsePattern& full, std::span<const std::size_t> f
 }
 
 void FreeMatrix::take_values(std::span<const double> full, std::span<double> values) const {
-    for (std::size_t k = 0; k < source_.size(); ++k) values[k] = full[static_cast<std::size_t>(source_[k])];
+    // forwards: values move to the front alone
+    double* to = values.data();
+    for (const Run& run : runs_) {
+        const double* from = full.data() + run.from;
+        to = to == from ? to + run.length : std::copy_n(from, run.length, to);
+    }
 }
 
 void FreeMatrix::take(std::span<const double> full, std::span<double> vector) const {

@@ -20,7 +20,7 @@ public:
     /// Number in the full matrix of each free degree of freedom, ascending.
     std::span<const std::size_t> free() const { return free_; }
 
-    /// @param[out] values  free rows and columns of the full ones
+    /// @param[out] values  free rows and columns of the full ones; may begin where `full` does
     void take_values(std::span<const double> full, std::span<double> values) const;
     /// @param[out] vector  free entries of a full one
     void take(std::span<const double> full, std::span<double> vector) const;
@@ -36,8 +36,13 @@ private:
         std::int64_t value;      ///< in the full matrix
         std::size_t row, fixed;  ///< free row; which of the fixed unknowns
     };
+    /// Values that follow each other in both matrices: whole rows but for those of the neighbours of fixed unknowns.
+    struct Run {
+        std::int64_t from, length;  ///< first value in the full matrix, number of values
+    };
     std::vector<std::size_t> free_;
-    std::vector<std::int64_t> row_starts_, columns_, source_;  ///< source: of each value, in the full matrix
+    std::vector<std::int64_t> row_starts_, columns_;
+    std::vector<Run> runs_;
     std::vector<Coupling> couplings_;
 };
 

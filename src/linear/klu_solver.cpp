@@ -4,6 +4,7 @@
 #include <new>
 
 #include "linear/linear_solver.hpp"
+#include "linear/ordering.hpp"
 
 namespace gneiss {
 namespace {
@@ -14,6 +15,8 @@ public:
     Klu() {
         klu_l_defaults(&common_);
         common_.halt_if_singular = 1;
+        common_.user_data = this;
+        common_.user_order = order;
     }
     Klu(const Klu&) = delete;
     Klu& operator=(const Klu&) = delete;
@@ -24,6 +27,13 @@ public:
     void analyse(const SparsePattern& pattern) override {
         free_all();
         pattern_ = pattern;
+        if (is_structurally_symmetric(pattern)) {
+            common_.ordering = 3;  // by user_order
+            common_.btf = 0;
+        } else {
+            common_.ordering = 0;  // minimum degree
+            common_.btf = 1;
+        }
         symbolic_ = klu_l_analyze(static_cast<SuiteSparse_long>(pattern.n()), starts(), columns(), &common_);
         check("its pattern");
     }
@@ -58,6 +68,17 @@ public:
     }
 
 private:
+    /// For klu_l_analyze(). @return entries of L to be expected, 0 if there is no memory
+    static SuiteSparse_long order(SuiteSparse_long n, SuiteSparse_long*, SuiteSparse_long*, SuiteSparse_long* unknowns,
+                                  klu_l_common* common) {
+        try {
+            const Ordering ordering = fill_reducing_ordering(static_cast<const Klu*>(common->user_data)->pattern_);
+            std::ranges::copy(ordering.unknowns, unknowns);
+            return std::max(static_cast<SuiteSparse_long>(ordering.factor_entries), n);
+        } catch (const std::bad_alloc&) {
+            return 0;
+        }
+    }
     SuiteSparse_long* starts() const { return const_cast<SuiteSparse_long*>(pattern_.row_starts.data()); }
     SuiteSparse_long* columns() const { return const_cast<SuiteSparse_long*>(pattern_.columns.data()); }
     void check(const std::string& where) {

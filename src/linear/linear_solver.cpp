@@ -2,7 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.hpp"
+
 namespace gneiss {
+
+void multiply(const SparsePattern& pattern, std::span<const double> values, std::span<const double> x,
+              std::span<double> y) {
+    parallel_ranges(y.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            double sum = 0;
+            for (auto k = static_cast<std::size_t>(pattern.row_starts[row]);
+                 k < static_cast<std::size_t>(pattern.row_starts[row + 1]); ++k)
+                sum += values[k] * x[static_cast<std::size_t>(pattern.columns[k])];
+            y[row] = sum;
+        }
+    });
+}
 
 std::string singular_text(double pivot_ratio) {
     return fmt::format("the matrix is singular but for round-off: its smallest pivot is {:.1e} of its largest",

@@ -20,6 +20,10 @@ struct SparsePattern {
     std::size_t n_nonzero() const { return columns.size(); }
 };
 
+/// y = A x.
+void multiply(const SparsePattern& pattern, std::span<const double> values, std::span<const double> x,
+              std::span<double> y);
+
 /// Ratio of the smallest to the largest pivot below which a matrix counts as singular: of sixteen digits two are left.
 inline constexpr double smallest_pivot_ratio = 1e-14;
 

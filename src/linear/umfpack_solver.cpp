@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linear/linear_solver.hpp"
+#include "linear/ordering.hpp"
 
 namespace gneiss {
 namespace {
@@ -27,7 +28,15 @@ public:
         free_all();
         pattern_ = pattern;
         const auto n = static_cast<SuiteSparse_long>(pattern.n());
-        check(umfpack_dl_symbolic(n, n, starts(), columns(), nullptr, &symbolic_, control_.data(), info_.data()));
+        // its own choice takes matrices of follower loads for unsymmetric ones: twice the fill
+        const bool symmetric = is_structurally_symmetric(pattern);
+        control_[UMFPACK_STRATEGY] = symmetric ? UMFPACK_STRATEGY_SYMMETRIC : UMFPACK_STRATEGY_AUTO;
+        if (symmetric)
+            check(umfpack_dl_qsymbolic(n, n, starts(), columns(), nullptr,
+                                       fill_reducing_ordering(pattern).unknowns.data(), &symbolic_, control_.data(),
+                                       info_.data()));
+        else
+            check(umfpack_dl_symbolic(n, n, starts(), columns(), nullptr, &symbolic_, control_.data(), info_.data()));
         scratch_.resize(5 * pattern.n());
         indices_.resize(pattern.n());
         x_.resize(pattern.n());

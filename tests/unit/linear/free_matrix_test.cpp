@@ -25,6 +25,15 @@ TEST(FreeMatrix, RowsAndColumnsOfFixedUnknowns_AreTakenOut) {
     EXPECT_THAT(free_values, ElementsAre(1, 7, 8, 9, 10));
 }
 
+TEST(FreeMatrix, Values_MayBeTakenInPlace) {
+    const std::vector<std::size_t> fixed{0, 3};
+    const FreeMatrix matrix({starts, columns}, fixed);
+    std::vector<double> shared = values;
+    matrix.take_values(shared, {shared.data(), matrix.pattern().n_nonzero()});
+    shared.resize(matrix.pattern().n_nonzero());
+    EXPECT_THAT(shared, ElementsAre(4, 5, 6, 7));
+}
+
 TEST(FreeMatrix, Vectors_ComeAndGoBack) {
     const std::vector<std::size_t> fixed{0, 3};
     const FreeMatrix matrix({starts, columns}, fixed);
