@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "crosscheck/crosscheck_testing.hpp"
 #include "crosscheck/refined_mesh.hpp"
+#include "mesh/geometry.hpp"
 #include "mesh/make_mesh.hpp"
 #include "mesh/measure.hpp"
 
@@ -25,6 +26,26 @@ std::string message_of(const std::string& deck, Element element) {
         return error.what();
     }
     return "";
+}
+
+TEST(Case, LoadThatEndsAtAMidSide_IsRefused_RefinedItHasItsResultant) {
+    const std::string deck = R"toml(
+mesh = { generator = "rectangle", width = 1, height = 1, cells = [2, 2], parts = [{ name = "quarter", of = "top", from = [0.75, 1], to = [1, 1] }] }
+solid = { plane = "strain" }
+run = { t_end = 1 }
+load = [{ on = "quarter", type = "traction", value = [8, -4] }]
+boundary = [{ on = "bottom", type = "fixed" }]
+material = [{ density = 1, constants = { M_v = 0.0, M_alpha = 1.0, M_beta = 1.0, M_psi = 1.0 } }]
+)toml";
+    EXPECT_THAT(message_of(deck, Element::p2), HasSubstr("[[load]] 1: the boundary ends in the middle"));
+    EXPECT_EQ(message_of(deck, Element::p1), "");
+    const ElasticCase refined = elastic_case(parse_deck(deck, "deck"), Element::p2, 1);
+    ASSERT_EQ(refined.problem.tractions.size(), 1u);
+    double length = 0;
+    for (const auto& [a, b] : refined.problem.tractions[0].sides)
+        length += distance(refined.problem.nodes[static_cast<std::size_t>(a)],
+                           refined.problem.nodes[static_cast<std::size_t>(b)]);
+    EXPECT_DOUBLE_EQ(length, 0.25);
 }
 
 TEST(Case, WhatIsNoLinearElasticity_IsRefused_AllAtOnce) {

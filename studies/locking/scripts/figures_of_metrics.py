@@ -48,6 +48,26 @@ def displacement(plane: str, path: str) -> None:
     style.save(figure, path)
 
 
+def meshes(path: str) -> None:
+    """x of the corner in plane strain, every mesh."""
+    figure, panels = with_legend_below(2, 4.0)
+    for panel, element in zip(panels, ("compt", "cst")):
+        by_family = details["corner_displacement"]["small"]["strain"][element]
+        for family, levels in by_family.items():
+            sizes, values = sizes_and_values(levels)
+            panel.plot(sizes, [SCALE * value[0] for value in values], FAMILY_MARKS[family] + "-",
+                       color=FAMILY_COLOURS[family], markersize=4, label=FAMILY_NAMES[family])
+        size_axis(panel, sizes_and_values(by_family["uniform_right"])[0])
+        style.panel_label(panel, f"{'ab'[element == 'cst']}) {ELEMENT_NAMES[element]}")
+    top = max(panel.get_ylim()[1] for panel in panels[:2])
+    for panel in panels[:2]:
+        panel.set_ylim(0, top)
+    panels[0].set_ylabel("$u_x$ of the corner / force [nm/N]")
+    panels[-1].legend(*panels[0].get_legend_handles_labels(), loc="center", ncols=3)
+    figure.suptitle("corner force, plane strain, ν = 0.4999", fontsize=9)
+    style.save(figure, path)
+
+
 def checkerboard(path: str) -> None:
     figure, (panel, below) = with_legend_below(1, 4.6)
     for element in ("cst", "compt"):
@@ -104,6 +124,7 @@ def inf_sup(path: str) -> None:
 
 for plane in ("stress", "strain"):
     displacement(plane, snakemake.output[plane])  # noqa: F821
+meshes(snakemake.output.meshes)  # noqa: F821
 checkerboard(snakemake.output.checkerboard)  # noqa: F821
 spread_load(snakemake.output.spread)  # noqa: F821
 inf_sup(snakemake.output.inf_sup)  # noqa: F821
