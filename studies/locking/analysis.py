@@ -62,6 +62,19 @@ class Results:
         return json.loads((self.crosscheck / f"{case.name}-{element}.json").read_text())
 
 
+def growth_per_halving(M_v: float, M: float) -> float:
+    """By how much u_x of the corner grows, over the force, when elements are halved: m/N, thickness 1 m.
+
+    Near the corner the solid is a wedge with a force at its end, across its axis. Stress is radial [Flamant 1892],
+    sigma_rr = -P cos(theta)/(c r) with theta from the line of the force, and c = int cos(theta)^2 from pi/4 to 3 pi/4 =
+    pi/4 - 1/2 for equilibrium. Its strain, integrated along r, is but for functions of theta a translation along the force
+    of P log(1/r)/(c E'), with E' = (C11^2 - C12^2)/C11. At which part of its size an element cuts that off is its own
+    affair, but the size is halved. P = sqrt(2) F has F along x.
+    """
+    c11, c12 = M_v + M, M_v
+    return float(np.log(2) / ((c11**2 - c12**2) / c11 * (np.pi / 4 - 0.5)))
+
+
 def relative_difference(a: Array, b: Array) -> float:
     """Largest difference of two fields over the largest value of the second."""
     return float(np.max(np.abs(np.asarray(a) - np.asarray(b))) / np.max(np.abs(b)))

@@ -17,6 +17,7 @@ BOUNDS = {
     "compt_traction_error_finest": Bound(0.005, 0.005),
     "compt_traction_order": Bound(1.5, 1.4, COARSE, at_least=True),
     "plane_stress_offset_spread": Bound(0.01, 0.01),
+    "compt_corner_growth_difference_max": Bound(0.01, 0.01),
     "cst_locking_ratio_coarsest": Bound(0.02, 0.02),
     "checkerboard_ratio": Bound(0.1, 0.1),
     "checkerboard_ratio_worst_mesh": Bound(0.1, 0.15, COARSE),

@@ -1,4 +1,5 @@
-"""The numerical inf-sup test [Chapelle and Bathe, The inf-sup test, Computers and Structures 47 (1993)].
+"""The numerical inf-sup test [Chapelle and Bathe, Computers and Structures 47 (1993); Bathe, Finite Element Procedures,
+(4.207)].
 
 A nearly incompressible solid is as good as its pressures are controlled: with b(q, v) = int q div v, the constant
 

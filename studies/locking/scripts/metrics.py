@@ -7,9 +7,9 @@ import numpy as np
 
 from studies.common.bounds import SKIPPED
 from studies.common.results import observed_order, read_table
-from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard, pressure,
-                                      relative_difference)
-from studies.locking.cases import FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, Plan
+from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
+                                      growth_per_halving, pressure, relative_difference)
+from studies.locking.cases import CONSTANTS, FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, M, Plan
 from studies.locking.spectrum import flutter, growth_rate
 
 ORDER_FAMILIES = ["uniform_right", "uniform_left", "alternating"]  # where an order is asked of the spread load
@@ -52,6 +52,18 @@ def offsets(results: Results, plan: Plan) -> dict:
         by_family[family] = {"offset": {str(n): offset.tolist() for n, offset in by_level.items()},
                              "spread": float(np.max(np.ptp(last, axis=0) / np.abs(last.mean(axis=0))))}
     return by_family
+
+
+def growth(u: dict) -> dict:
+    """Growth of u_x over the last halving of elements, uniform_right, relative to that of the wedge less 1."""
+    found: dict = {}
+    for plane in PLANES:
+        exact = growth_per_halving(CONSTANTS[plane]["M_v"], M)
+        for element in ("cst", "compt"):
+            levels = u["small"][plane][element]["uniform_right"]
+            before, last = (levels[str(n)][0] for n in sorted(map(int, levels))[-2:])
+            found.setdefault(element, {})[plane] = (last - before) / exact - 1
+    return found
 
 
 def spread_load(results: Results, plan: Plan, reference: float) -> dict:
@@ -164,6 +176,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
     ratio_of = {family: finest(boards["compt"][family])["pressure"] / finest(boards["cst"][family])["pressure"]
                 for family in FAMILIES}
     strain = u["small"]["strain"]
+    grown = growth(u)
 
     metrics = {
         "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
@@ -175,6 +188,8 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         **{f"traction_corner_displacement_{e}_finest": spread[e]["uniform_right"]["corner"][last][0]
            for e in ("compt", "cst")},
         "plane_stress_offset_spread": offset["uniform_right"]["spread"],
+        **{f"{element}_corner_growth_difference_max": max(map(abs, grown[element].values()))
+           for element in ("compt", "cst")},
         "cst_locking_ratio_coarsest": coarsest(strain["cst"]["uniform_right"])[0]
         / coarsest(strain["compt"]["uniform_right"])[0],
         "checkerboard_cst": cst_board,
@@ -194,7 +209,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
     }
     details = {
         "corner_displacement": u, "locking_table_difference": table, "plane_stress_offset": offset,
-        "spread_load": spread, "reference_compliance": reference, "checkerboard": boards,
+        "corner_growth_difference": grown, "spread_load": spread, "reference_compliance": reference, "checkerboard": boards,
         "checkerboard_ratio": ratio_of, "kinsol_relaxation_difference": pairs, "inf_sup": beta,
         "centre_and_mean": unstable, "deal_ii": peers,
     }

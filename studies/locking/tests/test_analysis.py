@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from studies.common.fields import Frame
-from studies.locking.analysis import (CHECKERBOARD_REACH, CORNER, Results, areas, checkerboard, pressure,
-                                      relative_difference, smoothed)
+from studies.locking.analysis import (CHECKERBOARD_REACH, CORNER, Results, areas, checkerboard, growth_per_halving,
+                                      pressure, relative_difference, smoothed)
 from studies.locking.cases import Case
 
 
@@ -53,6 +53,16 @@ class TestCheckerboard(unittest.TestCase):
         frame = square(1)
         frame.cell_data["cauchy_stress"] = np.array([[2.0, 4.0, 7.0], [-1.0, 0.0, 7.0]])
         np.testing.assert_array_equal(pressure(frame), [-3.0, 0.5])
+
+
+class TestGrowth(unittest.TestCase):
+    def test_Growth_OfPlaneStressAndStrain_HasTheirModulus(self):
+        # ln 2 F/(E' (pi/4 - 1/2)), E' = E or E/(1 - nu^2)
+        for E, nu, plane_strain in ((1e9, 0.5, False), (2e9, 0.25, False), (1e9, 0.4999, True), (3e9, 0.2, True)):
+            M = E / (1 + nu)
+            M_v = M * nu / (1 - 2 * nu) if plane_strain else M * nu / (1 - nu)
+            modulus = E / (1 - nu**2) if plane_strain else E
+            self.assertAlmostEqual(growth_per_halving(M_v, M) * modulus, np.log(2) / (np.pi / 4 - 0.5), places=9)
 
 
 class TestResults(unittest.TestCase):
