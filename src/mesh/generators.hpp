@@ -11,6 +11,9 @@ namespace gneiss {
 /// "top_left".
 MeshDraft rectangle(const MeshOptions& options);
 
+/// The same for any convex quadrilateral: the lines between cells are straight and divide opposite sides alike.
+MeshDraft quadrilateral(const MeshOptions& options);
+
 /// Square block centred at the origin with a circular hole: rings of cells between the circle and the square, graded
 /// geometrically, the diagonals alternating. Has every symmetry of the square. Region, boundaries and points as
 /// rectangle(), and boundary "hole".

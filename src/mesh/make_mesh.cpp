@@ -24,6 +24,8 @@ MeshDraft draft_of(const MeshOptions& options, const std::filesystem::path& base
             return read_gmsh(base_dir / options.file, options.parameters);
         case MeshOptions::Source::rectangle:
             return rectangle(options);
+        case MeshOptions::Source::quadrilateral:
+            return quadrilateral(options);
         case MeshOptions::Source::plate_with_hole:
             break;
     }

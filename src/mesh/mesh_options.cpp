@@ -34,13 +34,26 @@ void validate_file(std::vector<Problem>& problems, const MeshOptions& options) {
             problems.push_back({"mesh", fmt::format("parameters.{} = {} must be finite", name, value)});
 }
 
+void validate_cells(std::vector<Problem>& problems, const MeshOptions& options) {
+    for (int n : options.cells)
+        if (n < 1) problems.push_back({"mesh", fmt::format("cells = {} must be >= 1", n)});
+}
+
 void validate_rectangle(std::vector<Problem>& problems, const MeshOptions& options) {
     require_positive(problems, "width", options.width);
     require_positive(problems, "height", options.height);
     for (double x : options.origin)
         if (!std::isfinite(x)) problems.push_back({"mesh", fmt::format("origin = {} must be finite", x)});
-    for (int n : options.cells)
-        if (n < 1) problems.push_back({"mesh", fmt::format("cells = {} must be >= 1", n)});
+    validate_cells(problems, options);
+}
+
+void validate_quadrilateral(std::vector<Problem>& problems, const MeshOptions& options) {
+    if (const int corner = reflex_corner(options.corners); corner >= 0)
+        problems.push_back({"mesh", fmt::format("corners[{}] = [{}, {}] does not turn left: the quadrilateral must be "
+                                                "convex, its corners counter-clockwise",
+                                                corner, options.corners[static_cast<std::size_t>(corner)][0],
+                                                options.corners[static_cast<std::size_t>(corner)][1])});
+    validate_cells(problems, options);
 }
 
 void validate_plate(std::vector<Problem>& problems, const MeshOptions& options) {
@@ -83,7 +96,8 @@ void validate_parts(std::vector<Problem>& problems, const std::vector<BoundaryPa
 
 double expected_composites(const MeshOptions& options) {
     switch (options.source) {
-        case MeshOptions::Source::rectangle: {
+        case MeshOptions::Source::rectangle:
+        case MeshOptions::Source::quadrilateral: {
             const double per_cell = options.pattern == MeshOptions::Pattern::crossed ? 4 : 2;
             return per_cell * options.cells[0] * options.cells[1];
         }
@@ -106,6 +120,9 @@ std::vector<Problem> validate(const MeshOptions& options) {
             break;
         case MeshOptions::Source::rectangle:
             validate_rectangle(problems, options);
+            break;
+        case MeshOptions::Source::quadrilateral:
+            validate_quadrilateral(problems, options);
             break;
         case MeshOptions::Source::plate_with_hole:
             validate_plate(problems, options);

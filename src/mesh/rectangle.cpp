@@ -15,22 +15,26 @@ bool diagonal_rises_right(MeshOptions::Pattern pattern, int i, int j) {
     }
 }
 
-}  // namespace
-
-MeshDraft rectangle(const MeshOptions& options) {
+/// Rows and columns of cells.
+/// @param place  of the corner between cells, place(i, j) for i up to the number of columns and j up to that of rows
+template <class Place>
+MeshDraft grid(const MeshOptions& options, Place place) {
     const auto [nx, ny] = options.cells;
     MeshDraft draft;
     draft.region_names = {"solid"};
     const auto node = [columns = nx + 1](int i, int j) { return static_cast<std::int32_t>(j * columns + i); };
     for (int j = 0; j <= ny; ++j)
-        for (int i = 0; i <= nx; ++i)
-            draft.add_node(options.origin[0] + options.width * i / nx, options.origin[1] + options.height * j / ny);
+        for (int i = 0; i <= nx; ++i) {
+            const Point2 at = place(i, j);
+            draft.add_node(at[0], at[1]);
+        }
 
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) {
             const std::array corners{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
             if (options.pattern == MeshOptions::Pattern::crossed) {
-                const Point2 middle = midpoint(draft.nodes[corners[0]], draft.nodes[corners[2]]);
+                const Point2 middle = midpoint(midpoint(draft.nodes[corners[0]], draft.nodes[corners[2]]),
+                                               midpoint(draft.nodes[corners[1]], draft.nodes[corners[3]]));
                 const std::int32_t centre = draft.add_node(middle[0], middle[1]);
                 for (int k = 0; k < 4; ++k) draft.add_triangle(corners[k], corners[(k + 1) % 4], centre);
             } else {
@@ -57,6 +61,26 @@ MeshDraft rectangle(const MeshOptions& options) {
                     {"top_left", {node(0, ny)}}};
     add_mid_sides(draft);
     return draft;
+}
+
+}  // namespace
+
+MeshDraft rectangle(const MeshOptions& options) {
+    return grid(options, [&](int i, int j) {
+        return Point2{options.origin[0] + options.width * i / options.cells[0],
+                      options.origin[1] + options.height * j / options.cells[1]};
+    });
+}
+
+MeshDraft quadrilateral(const MeshOptions& options) {
+    const auto between = [](const Point2& from, const Point2& to, double part) {
+        return Point2{(1 - part) * from[0] + part * to[0], (1 - part) * from[1] + part * to[1]};
+    };
+    return grid(options, [&](int i, int j) {
+        const auto& [bottom_left, bottom_right, top_right, top_left] = options.corners;
+        const double s = static_cast<double>(i) / options.cells[0], t = static_cast<double>(j) / options.cells[1];
+        return between(between(bottom_left, bottom_right, s), between(top_left, top_right, s), t);
+    });
 }
 
 }  // namespace gneiss

@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include "crosscheck/crosscheck_testing.hpp"
-#include "integrators/quasi_static.hpp"
 #include "support/one_thread.hpp"
-#include "support/small_solids.hpp"
-#include "system/march.hpp"
+#include "verification/run_static.hpp"
 
 namespace gneiss::crosscheck {
 namespace {
@@ -21,14 +19,7 @@ State equilibrium(const CaseOptions& options) {
     what.loads = options.loads;
     what.boundaries = options.boundaries;
     const gneiss::test::Solid solid = gneiss::test::make_solid(make_mesh(options.mesh, options.solid.compt, {}), what);
-    QuasiStatic::Options o;
-    o.tolerance = 1e-10;
-    QuasiStatic integrator(o);
-    State state = solid.system->initial_state();
-    March march;
-    march.t_end = options.run.t_end;
-    march.run(*solid.system, integrator, state, false);
-    return state;
+    return gneiss::test::equilibria(*solid.system, {options.run.t_end}, {.tolerance = 1e-10}).back();
 }
 
 /// Largest difference of a displacement over the largest displacement.

@@ -23,9 +23,10 @@ using Choices = std::span<const Choice<E>>;
 /// How a deck names what BoundaryOptions holds: `fixed` is short for a displacement of zero.
 enum class BoundaryWord { fixed, displacement, velocity, absorbing };
 
-inline constexpr std::array<Choice<MeshOptions::Source>, 2> mesh_generators{{
+inline constexpr std::array<Choice<MeshOptions::Source>, 3> mesh_generators{{
     {"rectangle", MeshOptions::Source::rectangle,
      "rows and columns of rectangular cells, two composites in each (four if crossed)"},
+    {"quadrilateral", MeshOptions::Source::quadrilateral, "the same cells between four corners: a trapezoid, say"},
     {"plate_with_hole", MeshOptions::Source::plate_with_hole,
      "square block with a round hole at its centre, the origin"},
 }};

@@ -30,6 +30,20 @@ bool read_mesh_file(const Value& value, TableReader&, MeshOptions& out) {
     return false;
 }
 
+bool read_corners(const Value& value, TableReader&, MeshOptions& out) {
+    const auto points = value.elements(out.corners.size(), "points [x, y]");
+    bool good = points.has_value();
+    for (std::size_t i = 0; points && i < out.corners.size(); ++i)
+        good = (*points)[i].read(std::span<double>(out.corners[i]), NumberRule{Range{}, "m"}) && good;
+    if (!good) return false;
+    const int reflex = reflex_corner(out.corners);
+    if (reflex < 0) return true;
+    (*points)[static_cast<std::size_t>(reflex)].problem(
+        "does not turn left: the quadrilateral must be convex and its corners counter-clockwise, bottom left, bottom "
+        "right, top right, top left");
+    return false;
+}
+
 bool read_cells(const Value& value, TableReader&, MeshOptions& out) {
     const auto values = value.elements(out.cells.size(), "integers ≥ 1");
     bool good = values.has_value();
@@ -92,8 +106,10 @@ const Section<BoundaryPart>& part_section() {
 
 const Section<MeshOptions>& mesh_section() {
     using M = MeshOptions;
-    const std::vector<Condition> rectangle{{"generator", {"rectangle"}}}, plate{{"generator", {"plate_with_hole"}}},
-        file{{"file", {}}}, plate_or_file{{"generator", {"plate_with_hole"}}, {"file", {}}};
+    const std::vector<Condition> rectangle{{"generator", {"rectangle"}}},
+        quadrilateral{{"generator", {"quadrilateral"}}}, cells{{"generator", {"rectangle", "quadrilateral"}}},
+        plate{{"generator", {"plate_with_hole"}}}, file{{"file", {}}},
+        plate_or_file{{"generator", {"plate_with_hole"}}, {"file", {}}};
     static const Section<M> section{
         {choice<M>("generator", mesh_generators, "", [](M& out, M::Source source) { out.source = source; },
                    {.required = true, .or_else = "file", .meaning = "shape that is meshed here; or give `file`"}),
@@ -109,13 +125,21 @@ const Section<MeshOptions>& mesh_section() {
          number("height", &M::height,
                 {.unit = "m", .range = above(0), .required = true, .only_for = rectangle, .meaning = "extent along y"}),
          numbers("origin", &M::origin, {.unit = "m", .only_for = rectangle, .meaning = "lower left corner, [x, y]"}),
-         custom<M>("cells", "an array of 2 integers", "",
-                   {.range = at_least(1),
+         custom<M>("corners", "an array of 4 points", "",
+                   {.unit = "m",
                     .required = true,
-                    .only_for = rectangle,
-                    .meaning = "cells along x and y; a composite's sub-edges are half as long as a cell"},
-                   read_cells),
-         choice("pattern", &M::pattern, mesh_patterns, {.only_for = rectangle, .meaning = "diagonals of the cells"}),
+                    .only_for = quadrilateral,
+                    .meaning = "`[[x, y], …]`: bottom left, bottom right, top right, top left; convex"},
+                   read_corners),
+         custom<M>(
+             "cells", "an array of 2 integers", "",
+             {.range = at_least(1),
+              .required = true,
+              .only_for = cells,
+              .meaning = "cells along x and y, or along the bottom and the left side; a composite's sub-edges are "
+                         "half as long as a cell"},
+             read_cells),
+         choice("pattern", &M::pattern, mesh_patterns, {.only_for = cells, .meaning = "diagonals of the cells"}),
          number("side", &M::side,
                 {.unit = "m",
                  .range = above(0),

@@ -100,9 +100,12 @@ TEST(DeckErrors, UnknownKeysAndWords) {
 }
 
 TEST(DeckErrors, Mesh) {
-    const std::string plate = "mesh={ generator = 'plate_with_hole', ";
+    const std::string plate = "mesh={ generator = 'plate_with_hole', ",
+                      quadrilateral = "mesh={ generator = 'quadrilateral', ";
     expect_messages({
-        {{"mesh={}"}, {"key `mesh.generator`: missing (or `file`), must be one of \"rectangle\", \"plate_with_hole\""}},
+        {{"mesh={}"},
+         {"key `mesh.generator`: missing (or `file`), must be one of \"rectangle\", \"quadrilateral\", "
+          "\"plate_with_hole\""}},
         {{"mesh={ file = 'a.stl' }"},
          {"key `mesh.file`: given \"a.stl\", must be a file of Gmsh, ending in .msh or .geo"}},
         {{"mesh.file=a.msh"}, {"key `mesh.file`: given together with `generator`, a mesh comes from one of them"}},
@@ -113,6 +116,15 @@ TEST(DeckErrors, Mesh) {
           "\"rectangle\""}},
         {{"mesh={ file = 'a.msh', width = 1 }"},
          {"key `mesh.width`: only for `generator` = \"rectangle\", here `generator` is not given"}},
+        {{quadrilateral + "corners = [[0, 0], [48, 44], [48, 60]], cells = [2, 2] }"},
+         {"key `mesh.corners`: given [[0, 0], [48, 44], [48, 60]], must be an array of 4 points [x, y]"}},
+        {{quadrilateral + "corners = [[0, 0], [48, 44], [48, 60], 44], cells = [2, 2] }"},
+         {"key `mesh.corners[3]`: given 44 (an integer), must be an array of 2 numbers (m)"}},
+        {{quadrilateral + "corners = [[0, 0], [4, 0], [1, 1], [0, 4]], cells = [2, 2] }"},
+         {"key `mesh.corners[2]`: does not turn left: the quadrilateral must be convex and its corners "
+          "counter-clockwise, bottom left, bottom right, top right, top left"}},
+        {{"mesh.corners=[[0, 0], [4, 0], [1, 1], [0, 4]]"},
+         {"key `mesh.corners`: only for `generator` = \"quadrilateral\", here `generator` is \"rectangle\""}},
         {{"mesh.parameters={ lc = 1 }"}, {"key `mesh.parameters`: only for `file`, here `file` is not given"}},
         {{"mesh={ file = 'a.geo', parameters = { lc = 'x' } }"},
          {"key `mesh.parameters.lc`: given \"x\" (a string), must be a number"}},

@@ -116,6 +116,12 @@ solver = "umfpack"
 t_end = 1
 )toml",
     R"toml(
+mesh = { generator = "quadrilateral", corners = [[0, 0], [48, 44], [48, 60], [0, 44]], cells = [2, 3] }
+solid = { plane = "strain" }
+material = [{ density = 1000, constants = { E = 1e9, nu = 0.25 } }]
+run = { t_end = 1 }
+)toml",
+    R"toml(
 [mesh]
 file = "rock.msh"
 [solid]

@@ -148,6 +148,18 @@ TEST(Deck, NeoHookean_TakesLameConstants) {
     EXPECT_EQ(set.materials[0].lame_lambda, -1.0);
 }
 
+TEST(Deck, Quadrilateral_HasItsCorners) {
+    const std::string mesh =
+        "mesh={ generator = 'quadrilateral', corners = [[0, 0], [48, 44], [48, 60], [0, 44]], cells = [2, 3], "
+        "pattern = 'crossed' }";
+    const CaseOptions c = parse_deck(sample, "case.toml", {mesh, "mesh.corners.2=[48.0, 61.5]"});
+    EXPECT_EQ(c.mesh.source, MeshOptions::Source::quadrilateral);
+    EXPECT_EQ(c.mesh.corners[1], (std::array{48.0, 44.0}));
+    EXPECT_EQ(c.mesh.corners[2], (std::array{48.0, 61.5}));
+    EXPECT_EQ(c.mesh.cells, (std::array{2, 3}));
+    EXPECT_EQ(c.mesh.pattern, MeshOptions::Pattern::crossed);
+}
+
 TEST(Deck, SetValues_LieOverTheDeck) {
     const CaseOptions c =
         parse_deck(sample, "case.toml",

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "mesh/make_mesh.hpp"
@@ -37,6 +38,24 @@ TEST(MeshOptions, BadRectangle_ReportsEveryProblem) {
     options.cells = {0, 3};
     EXPECT_THAT(validate(options), ElementsAre(says("width = -1 must be"), says("height = nan must be"),
                                                says("origin = inf must be finite"), says("cells = 0 must be >= 1")));
+}
+
+TEST(MeshOptions, QuadrilateralThatIsNotConvexOrRunsClockwise_IsRefused) {
+    MeshOptions options;
+    options.source = MeshOptions::Source::quadrilateral;
+    EXPECT_THAT(validate(options), IsEmpty());
+    options.corners = {{{0, 0}, {48, 44}, {48, 60}, {0, 44}}};
+    EXPECT_THAT(validate(options), IsEmpty());
+    options.cells = {0, 3};
+    std::reverse(options.corners.begin(), options.corners.end());
+    EXPECT_THAT(validate(options), ElementsAre(says("corners[0] = [0, 44] does not turn left"), says("cells = 0")));
+    options.cells = {1, 1};
+    options.corners = {{{0, 0}, {4, 0}, {1, 1}, {0, 4}}};
+    EXPECT_THAT(validate(options), ElementsAre(says("corners[2] = [1, 1] does not turn left")));
+    options.corners = {{{0, 0}, {1, 0}, {1, 1}, {0, std::numeric_limits<double>::quiet_NaN()}}};
+    EXPECT_THAT(validate(options), ElementsAre(says("does not turn left")));
+    options.corners = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};  // crosses itself
+    EXPECT_THAT(validate(options), ElementsAre(says("does not turn left")));
 }
 
 TEST(MeshOptions, BadPlate_ReportsEveryProblem) {
@@ -98,6 +117,8 @@ TEST(MeshOptions, ExpectedComposites_MatchTheMesh) {
     MeshOptions crossed;
     crossed.cells = {3, 2};
     crossed.pattern = MeshOptions::Pattern::crossed;
+    EXPECT_EQ(expected_composites(crossed), 24);
+    crossed.source = MeshOptions::Source::quadrilateral;
     EXPECT_EQ(expected_composites(crossed), 24);
 }
 

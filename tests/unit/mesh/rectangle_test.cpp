@@ -110,6 +110,38 @@ TEST_P(Rectangle, Diagonals_FollowThePattern) {
         }
 }
 
+TEST_P(Rectangle, QuadrilateralOfTheSameCorners_IsTheSameMesh) {
+    MeshOptions options = three_by_two(GetParam());
+    options.source = MeshOptions::Source::quadrilateral;
+    options.corners = {{{-1, 2}, {2, 2}, {2, 3}, {-1, 3}}};
+    const Mesh other = make_mesh(options, true, ".");
+    EXPECT_EQ(other.connectivity, mesh.connectivity);
+    EXPECT_EQ(other.node_sets, mesh.node_sets);
+    for (std::size_t n = 0; n < mesh.n_nodes(); ++n)
+        for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(other.nodes[n][i], mesh.nodes[n][i], round_off);
+}
+
+TEST_P(Rectangle, CooksTrapezoid_HasItsCornersSidesAndArea) {
+    MeshOptions options;
+    options.source = MeshOptions::Source::quadrilateral;
+    options.corners = {{{0, 0}, {48, 44}, {48, 60}, {0, 44}}};
+    options.cells = {4, 6};
+    options.pattern = GetParam();
+    const Mesh cook = make_mesh(options, true, ".");
+    EXPECT_NEAR(total_area(cook), 48 * (44 + 16) / 2.0, round_off * 1440);
+    EXPECT_GT(smallest_signed_area(cook), 0);
+    for (std::size_t e = 0; e < cook.n_elements(); ++e) EXPECT_TRUE(has_straight_sides(cook, e));
+    EXPECT_NEAR(length(cook, "left"), 44, round_off * 44);
+    EXPECT_NEAR(length(cook, "right"), 16, round_off * 44);
+    EXPECT_NEAR(length(cook, "bottom"), std::hypot(48, 44), round_off * 66);
+    EXPECT_NEAR(length(cook, "top"), std::hypot(48, 16), round_off * 66);
+    for (const auto& [name, corner] : {std::pair("bottom_left", 0), std::pair("bottom_right", 1),
+                                       std::pair("top_right", 2), std::pair("top_left", 3)})
+        EXPECT_EQ(cook.nodes[static_cast<std::size_t>(cook.node_sets.at(name)[0])],
+                  options.corners[static_cast<std::size_t>(corner)]);
+    expect_sound_boundaries(cook);
+}
+
 INSTANTIATE_TEST_SUITE_P(Patterns, Rectangle,
                          ::testing::Values(Pattern::uniform_right, Pattern::uniform_left, Pattern::alternating,
                                            Pattern::crossed));
