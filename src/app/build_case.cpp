@@ -45,7 +45,9 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
 std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     std::vector<std::string> warnings;
     const auto idle = [&](bool given, const char* what) {
-        if (given) warnings.push_back(fmt::format("{}: has no effect under integrator.type = \"quasi_static\"", what));
+        if (given)
+            warnings.push_back(
+                fmt::format("{}: has no effect under integrator.type = \"{}\"", what, options.integrator.type));
     };
     idle(!options.initial.empty(), "initial");
     idle(options.run.mass_damping > 0, "run.mass_damping");
@@ -87,7 +89,7 @@ Case build_case(CaseOptions options) {
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
-    if (options.integrator.type == "quasi_static")
+    if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
     built.options = std::move(options);

@@ -75,7 +75,7 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
 
     const IntegratorOptions& integrator = built.options.integrator;
     const bool adapted = integrator.dt == 0 || integrator.adaptive;
-    line("step", integrator.type == "quasi_static" ? fmt::format("{:.4g} s of load time, adapted", dt)
+    line("step", built.integrator->is_static() ? fmt::format("{:.4g} s of load time, adapted", dt)
                  : integrator.type == "central_difference" && adapted
                      ? fmt::format("{:.4g} s, {} of the critical step", dt, integrator.safety)
                      : fmt::format("{:.4g} s, {}", dt, adapted ? "adapted" : "fixed"));

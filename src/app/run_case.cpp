@@ -50,6 +50,7 @@ private:
     EnergyLedger ledger() const;
     void begin();
     bool after_step(const StepReport& step);
+    bool within_step(const StepProgress& progress);
     void write_rows(double dt);
     void write_frame() { frames_->write(*case_.system, state_, progress_.step); }
     void write_checkpoint();
@@ -184,8 +185,18 @@ bool Run::after_step(const StepReport& step) {
     return !stop_request_.requested();
 }
 
+bool Run::within_step(const StepProgress& progress) {
+    bar_->update([&] {
+        ProgressState shown = progress_state();
+        shown.within = fmt::format("iteration {}: {:.1e} out of balance", progress.iteration, progress.unbalanced);
+        return shown;
+    });
+    return !stop_request_.requested();
+}
+
 ProgressState Run::progress_state() const {
-    return {state_.t, case_.options.run.t_end, static_cast<std::int64_t>(progress_.step), last_dt_, balance_error_, {}};
+    return {state_.t, case_.options.run.t_end, static_cast<std::int64_t>(progress_.step), last_dt_, balance_error_, {},
+            {}};
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
@@ -236,6 +247,7 @@ int Run::march() {
     march.next_look = [this](double t) { return schedule_->next_look(t); };
     march.after_start = [this] { begin(); };
     march.after_step = [this](const StepReport& step) { return after_step(step); };
+    march.within_step = [this](const StepProgress& progress) { return within_step(progress); };
     try {
         if (march.run(*case_.system, *case_.integrator, state_, resumed_) == MarchOutcome::finished)
             return end(RunStatus::done, "", exit_code::done);
