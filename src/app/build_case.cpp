@@ -11,6 +11,7 @@
 #include "model/initial_conditions.hpp"
 #include "model/loads.hpp"
 #include "model/make_blocks.hpp"
+#include "model/rigid_motions.hpp"
 
 namespace gneiss {
 namespace {
@@ -39,6 +40,14 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
     return absorbing_blocks(
         mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
         options.solid.thickness);
+}
+
+/// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
+void need_supports(const Mesh& mesh, const ConstraintSet& constraints) {
+    const std::vector<FreePart> free = free_parts(mesh, constraints.constraints());
+    if (!free.empty())
+        throw InputError("[[boundary]]",
+                         "too few supports for a static solution, which leaves free " + describe(free, mesh));
 }
 
 /// What is given and has no effect where nothing moves.
@@ -84,6 +93,7 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
     collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
+    if (built.integrator->is_static()) need_supports(built.mesh, parts.constraints);
 
     for (const double time : options.output.field_times)
         if (time > options.run.t_end)
