@@ -130,8 +130,8 @@ bool DynamicRelaxation::solve(const SemiDiscrete& system, const State& state) {
         evaluate(system, state);
         Measures now = measure();
         if (k == 0) largest_before = now.largest;  // supports, and loads out of balance before the step
-        const double largest = std::max(largest_before, now.largest);
-        const double unbalanced = largest > 0 ? now.largest_free / largest : 0;
+        largest_force_ = std::max(largest_before, now.largest);
+        const double unbalanced = largest_force_ > 0 ? now.largest_free / largest_force_ : 0;
         const bool all_in = static_cast<double>(k) >= ramp;
         if (all_in && unbalanced <= options().tolerance) break;
         tell({next_.t, k, unbalanced});

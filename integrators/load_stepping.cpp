@@ -45,8 +45,9 @@ void LoadStepping::start(const SemiDiscrete& system, State& state, StartReason w
 
 StepReport LoadStepping::advance(const SemiDiscrete& system, State& state, double t_stop) {
     const double dt_before = dt_, first_before = first_dt_;
-    const std::size_t evaluations_before = counts_.evaluations;
+    const Counts before = counts_;
     StepReport report;
+    warning_.clear();
     try {
         attempt(system, state, t_stop, report);
     } catch (...) {
@@ -54,9 +55,13 @@ StepReport LoadStepping::advance(const SemiDiscrete& system, State& state, doubl
         first_dt_ = first_before;
         throw;
     }
-    accept(system, state);
+    const double unbalanced = accept(system, state);
     report.t = state.t;
-    report.n_force = counts_.evaluations - evaluations_before;
+    report.n_force = counts_.evaluations - before.evaluations;
+    report.numbers = {static_cast<double>(counts_.iterations - before.iterations),
+                      static_cast<double>(counts_.factorisations - before.factorisations),
+                      static_cast<double>(report.n_force), unbalanced > 0 ? unbalanced / largest_force_ : 0.0};
+    report.warning = warning_;
     return report;
 }
 
@@ -85,6 +90,7 @@ void LoadStepping::attempt(const SemiDiscrete& system, State& state, double t_st
         } catch (const Exhausted& error) {
             fail(error);
         } catch (const RecoverableError& error) {
+            report.rejected = error.what();
             dt_ = report.dt / 2;
             if (dt_ < options_.shortest * first_dt_) fail(error);
         }
@@ -101,7 +107,7 @@ void LoadStepping::find_changes(const SemiDiscrete& system, const State& state) 
                                                                        : prescribed_[k] - state.u[constraints[k].dof];
 }
 
-void LoadStepping::accept(const SemiDiscrete& system, State& state) {
+double LoadStepping::accept(const SemiDiscrete& system, State& state) {
     ++counts_.evaluations;
     system.force_and_update(state, trial(), f_, next_.z, next_.history);
     system.add_path_energies(state, next_);
@@ -109,8 +115,12 @@ void LoadStepping::accept(const SemiDiscrete& system, State& state) {
         const std::size_t dof = system.constraints()[k].dof;
         next_.path.support_work += 0.5 * (reactions_[k] - f_[dof]) * (next_.u[dof] - state.u[dof]);
         reactions_[k] = -f_[dof];
+        f_[dof] = 0;
     }
     std::swap(state, next_);
+    double unbalanced = 0;
+    for (const double force : f_) unbalanced = std::max(unbalanced, std::abs(force));
+    return unbalanced;
 }
 
 void LoadStepping::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {

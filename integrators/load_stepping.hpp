@@ -25,6 +25,7 @@ public:
         /// @throws InputError
         void validate() const;
     };
+    /// Of what has been done since the integrator was made, rejected trials included.
     struct Counts {
         std::size_t evaluations = 0;     ///< of forces
         std::size_t iterations = 0;      ///< of the method
@@ -32,6 +33,9 @@ public:
     };
 
     bool is_static() const final { return true; }
+    std::vector<StepColumn> step_columns() const final {
+        return {{"iterations"}, {"factorisations"}, {"force_evaluations"}, {"unbalanced"}};
+    }
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     /// Nothing moves: zero.
@@ -67,6 +71,8 @@ protected:
         ++counts_.evaluations;
     }
 
+    double largest_force_ = 0;  ///< of the step, N, set by solve(): what forces out of balance are measured by
+    std::string warning_;       ///< set by solve(): what a user should know once
     State next_;
     std::vector<double> f_;       ///< N, at next_
     std::vector<double> change_;  ///< of prescribed displacements in the step, m, shape (constraints)
@@ -77,7 +83,8 @@ private:
     /// One load step, which may fail.
     void attempt(const SemiDiscrete& system, State& state, double t_stop, StepReport& report);
     void find_changes(const SemiDiscrete& system, const State& state);
-    void accept(const SemiDiscrete& system, State& state);
+    /// @return the largest force out of balance, N
+    double accept(const SemiDiscrete& system, State& state);
 
     Options options_;
     double dt_ = 0, first_dt_ = 0;  ///< next load step, first one, s

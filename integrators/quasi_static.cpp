@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <stdexcept>
 
 #include "base/errors.hpp"
@@ -31,25 +30,8 @@ struct QuasiStatic::Problem {
     QuasiStatic& self;
     const SemiDiscrete& system;
     const State& state;
-    double largest;                         ///< force of the step, N
-    std::size_t iteration = 0;              ///< tangents so far
-    std::string failure = {};               ///< of the last evaluation that failed
-    std::exception_ptr unrecoverable = {};  ///< what no other step would cure
-
-    /// What SUNDIALS is to know of an exception: 1, try again elsewhere; -1, give up.
-    template <class Body>
-    int guarded(Body body) {
-        try {
-            body();
-            return 0;
-        } catch (const RecoverableError& error) {
-            failure = error.what();
-            return 1;
-        } catch (...) {
-            unrecoverable = std::current_exception();
-            return -1;
-        }
-    }
+    std::size_t iteration = 0;  ///< tangents so far
+    CallbackGuard guarded = {};
 
     static int residual(N_Vector u, N_Vector r, void* problem) {
         auto& p = *static_cast<Problem*>(problem);
@@ -58,7 +40,7 @@ struct QuasiStatic::Problem {
             p.self.evaluate(p.system, p.state);
             p.self.free_->take(p.self.f_, values_of(r));
             for (double& force : values_of(r)) force = -force;
-            p.self.tell({p.self.next_.t, p.iteration, largest_of(values_of(r)) / p.largest});
+            p.self.tell({p.self.next_.t, p.iteration, largest_of(values_of(r)) / p.self.largest_force_});
         });
     }
     static int jacobian(N_Vector u, N_Vector, SUNMatrix, void* problem, N_Vector, N_Vector) {
@@ -112,6 +94,15 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     N_VConst(1 / system.smallest_length(), unknown_scale_.get());
 }
 
+double QuasiStatic::matrix_bytes() const {
+    if (!solver_) return 0;
+    constexpr std::size_t vectors_of_kinsol = 8;
+    const std::size_t columns = values_.size();  // of the tangent itself
+    return static_cast<double>((values_.size() + columns + vectors_of_kinsol * free_->n()) * sizeof(double) +
+                               free_->bytes()) +
+           solver_->expected_factor_bytes();
+}
+
 void QuasiStatic::predict(const SemiDiscrete& system, const State& state) {
     const Trial old{next_.t, next_.last_event, state.u, next_.v, {}};
     system.force(state, old, f_);
@@ -121,7 +112,11 @@ void QuasiStatic::predict(const SemiDiscrete& system, const State& state) {
     free_->subtract_fixed(values_, change_, right_);
     free_->take_values(values_, matrix_->values());
     ++counts_.factorisations;
-    solver_->factorise(matrix_->values());
+    try {
+        solver_->factorise(matrix_->values());
+    } catch (const SingularMatrix& error) {
+        throw Exhausted(fmt::format("in the last equilibrium {}", error.what()));  // whatever the step
+    }
     solver_->solve(right_, right_);
     const std::span<double> u = values_of(unknowns_.get());
     free_->take(state.u, u);
@@ -133,41 +128,51 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     for (std::size_t k = 0; k < constraints.size(); ++k) next_.u[constraints[k].dof] += change_[k];
     if (free_->n() == 0) return true;
     predict(system, state);
-    double largest = largest_of(f_);  // supports, and loads out of balance before the step
+    largest_force_ = largest_of(f_);  // supports, and loads out of balance before the step
     free_->put(values_of(unknowns_.get()), next_.u);
     evaluate(system, state);
-    largest = std::max(largest, largest_of(f_));
-    if (largest == 0) return true;
-    N_VConst(1 / largest, force_scale_.get());
-    Problem problem{*this, system, state, largest};
+    largest_force_ = std::max(largest_force_, largest_of(f_));
+    if (largest_force_ == 0) return true;
+    N_VConst(1 / largest_force_, force_scale_.get());
+    Problem problem{*this, system, state};
 
     KINSetUserData(kinsol_.get(), &problem);
     const int flag = KINSol(kinsol_.get(), unknowns_.get(), KIN_LINESEARCH, unknown_scale_.get(), force_scale_.get());
     KINSetUserData(kinsol_.get(), nullptr);
-    if (problem.unrecoverable) std::rethrow_exception(problem.unrecoverable);
+    problem.guarded.rethrow();
     linear_->rethrow_unrecoverable();
     long iterations = 0;
     KINGetNumNonlinSolvIters(kinsol_.get(), &iterations);
     counts_.iterations += static_cast<std::size_t>(std::max(iterations, 0L));
     free_->put(values_of(unknowns_.get()), next_.u);
-    const bool easy = iterations <= few_iterations;
-    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return easy;
+    const auto found = [&] {
+        const double t = iterations > 0 ? next_.t : state.t;
+        if (solver_->indefinite() && !indefinite_)
+            warning_ = fmt::format(
+                "the tangent is indefinite at load time t = {:.9g} s: a limit or bifurcation point lies before it, and "
+                "beside the equilibria found from there on there are others",
+                t);
+        indefinite_ = solver_->indefinite();
+        return iterations <= few_iterations;
+    };
+    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return found();
 
     const std::unique_ptr<char, void (*)(void*)> name(KINGetReturnFlagName(flag), std::free);
     const bool linear_failed = flag == KIN_LSETUP_FAIL || flag == KIN_LSOLVE_FAIL;
     const bool force_failed =
         flag == KIN_SYSFUNC_FAIL || flag == KIN_FIRST_SYSFUNC_ERR || flag == KIN_REPTD_SYSFUNC_ERR;
     if (linear_failed && !linear_->failure().empty()) throw RecoverableError(linear_->failure());
-    if (force_failed && !problem.failure.empty()) throw RecoverableError(problem.failure);
+    if (force_failed && !problem.guarded.failure().empty()) throw RecoverableError(problem.guarded.failure());
     // Where no step makes the forces smaller they have come to round-off: the end as well, if near the tolerance.
     evaluate(system, state);
     free_->take(f_, right_);
-    const double left = largest_of(right_) / largest;
+    const double left = largest_of(right_) / largest_force_;
     constexpr double near = 10;
     if ((flag == KIN_STEP_LT_STPTOL || flag == KIN_LINESEARCH_NONCONV) && left <= near * options().tolerance)
-        return easy;
+        return found();
     throw RecoverableError(
-        fmt::format("{} after {} iterations, {:.3g} of the forces out of balance", name.get(), iterations, left));
+        fmt::format("{} after {} iterations, {:.3g} of the forces out of balance{}", name.get(), iterations, left,
+                    solver_->indefinite() ? ", the tangent indefinite: near a limit or bifurcation point" : ""));
 }
 
 }  // namespace gneiss

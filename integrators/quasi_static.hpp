@@ -25,6 +25,7 @@ public:
     ~QuasiStatic() override;
 
     std::string name() const override { return "quasi_static"; }
+    double matrix_bytes() const override;
 
 private:
     struct Problem;  ///< what KINSOL is told of a load step
@@ -36,6 +37,7 @@ private:
     void predict(const SemiDiscrete& system, const State& state);
 
     std::string solver_name_;
+    bool indefinite_ = false;  ///< the tangent of the last equilibrium
     std::vector<double> values_, right_;
 
     std::unique_ptr<FreeMatrix> free_;

@@ -22,11 +22,20 @@ enum class StartReason {
 
 /// What one accepted step was, or several of them taken in one go.
 struct StepReport {
-    double t = 0;                ///< time reached, s
-    double dt = 0;               ///< of the last step, s
-    std::size_t n_rejected = 0;  ///< trials thrown away on the way
-    std::size_t n_force = 0;     ///< force evaluations
-    std::size_t n_steps = 1;     ///< accepted steps, >= 1
+    double t = 0;                      ///< time reached, s
+    double dt = 0;                     ///< of the last step, s
+    std::size_t n_rejected = 0;        ///< trials thrown away on the way
+    std::size_t n_force = 0;           ///< force evaluations
+    std::size_t n_steps = 1;           ///< accepted steps, >= 1
+    std::vector<double> numbers = {};  ///< what Integrator::step_columns() names
+    std::string rejected = {};         ///< why the last trial thrown away was; empty: none was
+    std::string warning = {};          ///< what a user should know once
+};
+
+/// A number that an integrator reports of each of its steps.
+struct StepColumn {
+    std::string name;
+    std::string unit = {};
 };
 
 /// Where a step stands that takes many iterations.
@@ -56,6 +65,10 @@ public:
     virtual std::string name() const = 0;
     /// Whether time is load time and nothing moves: no inertia, no damping.
     virtual bool is_static() const { return false; }
+    /// What it reports of each step beside StepReport's own members; empty: its steps are not worth a table.
+    virtual std::vector<StepColumn> step_columns() const { return {}; }
+    /// Matrices and their factors, bytes, as far as the pattern tells; once started.
+    virtual double matrix_bytes() const { return 0; }
 
     /// Takes the system and an accepted state. Also called after an event that asks for it.
     virtual void start(const SemiDiscrete& system, State& state, StartReason why) = 0;
