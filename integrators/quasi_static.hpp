@@ -1,70 +1,44 @@
 #pragma once
-// Equilibrium under slowly growing loads: f(t, u, 0) = 0 on the free degrees of freedom at a sequence of load times t.
+// Equilibria under growing loads by Newton's method: f(t, u, 0) = 0 on the free degrees of freedom.
 //
 // A load step solves K du = f(t + dt, u) with the prescribed displacements of t + dt put in as they are (so that the
 // first iterate of a linear solid is the solution), and goes on from there by Newton's method with a line search
-// (KINSOL) and exact tangents. A step that does not converge is halved, one that converges fast is followed by a longer
-// one. Laws with memory take the exact update of the step.
+// (KINSOL) and exact tangents. A step that converges fast is followed by a longer one.
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "integrators/load_stepping.hpp"
 #include "integrators/sundials_objects.hpp"
 #include "linear/free_matrix.hpp"
-#include "system/integrator.hpp"
 
 namespace gneiss {
 
-class QuasiStatic final : public Integrator {
+class QuasiStatic final : public LoadStepping {
 public:
-    struct Options {
-        double tolerance = 1e-9;   ///< largest force out of balance over the largest of the step's forces, (0, 0.01]
-        double step = 0;           ///< first load step, s; 0: up to the next stop
-        double longest = 0;        ///< longest load step, s; 0: no limit
-        double shortest = 1e-6;    ///< load step at which to give up, part of the first one, (0, 1)
-        int most_iterations = 20;  ///< of Newton's method in a load step, >= 1
+    struct Options : LoadStepping::Options {
         std::string solver = "automatic";  ///< see make_linear_solver()
-
-        /// @throws InputError
-        void validate() const;
-    };
-    struct Counts {
-        std::size_t evaluations = 0;     ///< of forces
-        std::size_t iterations = 0;      ///< of Newton's method
-        std::size_t factorisations = 0;  ///< one for the first iterate of a step, one for each iteration
     };
 
     explicit QuasiStatic(const Options& options);
     ~QuasiStatic() override;
 
     std::string name() const override { return "quasi_static"; }
-    /// @throws InputError if the system has no tangent
-    void start(const SemiDiscrete& system, State& state, StartReason why) override;
-    StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
-    /// Nothing moves: zero.
-    double kinetic_energy(const SemiDiscrete&, const State&) const override { return 0; }
-    std::span<const double> reactions() const override { return reactions_; }
-    IntegratorMemory save() const override;
-    void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
-
-    const Counts& counts() const { return counts_; }
+    double matrix_bytes() const override;
 
 private:
     struct Problem;  ///< what KINSOL is told of a load step
 
-    void allocate(const SemiDiscrete& system);
-    /// Equilibrium at next_.t. @throws RecoverableError
-    void solve(const SemiDiscrete& system, const State& state);
-    void set_prescribed(const SemiDiscrete& system, const State& state);
-    /// next_.u on the free degrees of freedom from the tangent at the last state.
+    /// @throws InputError if the system has no tangent
+    void allocate(const SemiDiscrete& system) override;
+    bool solve(const SemiDiscrete& system, const State& state) override;
+    /// The unknowns from the tangent at the last state.
     void predict(const SemiDiscrete& system, const State& state);
 
-    Options options_;
-    Counts counts_;
-    State next_;
-    double dt_ = 0, first_dt_ = 0;  ///< next load step, first one, s
-    std::vector<double> f_, values_, prescribed_, change_, right_, reactions_;
+    std::string solver_name_;
+    bool indefinite_ = false;  ///< the tangent of the last equilibrium
+    std::vector<double> values_, right_;
 
     std::unique_ptr<FreeMatrix> free_;
     std::unique_ptr<LinearSolver> solver_;

@@ -11,6 +11,7 @@
 #include "model/initial_conditions.hpp"
 #include "model/loads.hpp"
 #include "model/make_blocks.hpp"
+#include "model/rigid_motions.hpp"
 
 namespace gneiss {
 namespace {
@@ -41,11 +42,21 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
         options.solid.thickness);
 }
 
+/// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
+void need_supports(const Mesh& mesh, const ConstraintSet& constraints) {
+    const std::vector<FreePart> free = free_parts(mesh, constraints.constraints());
+    if (!free.empty())
+        throw InputError("[[boundary]]",
+                         "too few supports for a static solution, which leaves free " + describe(free, mesh));
+}
+
 /// What is given and has no effect where nothing moves.
 std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     std::vector<std::string> warnings;
     const auto idle = [&](bool given, const char* what) {
-        if (given) warnings.push_back(fmt::format("{}: has no effect under integrator.type = \"quasi_static\"", what));
+        if (given)
+            warnings.push_back(
+                fmt::format("{}: has no effect under integrator.type = \"{}\"", what, options.integrator.type));
     };
     idle(!options.initial.empty(), "initial");
     idle(options.run.mass_damping > 0, "run.mass_damping");
@@ -82,12 +93,13 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
     collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
+    if (built.integrator->is_static()) need_supports(built.mesh, parts.constraints);
 
     for (const double time : options.output.field_times)
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
-    if (options.integrator.type == "quasi_static")
+    if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
     built.options = std::move(options);

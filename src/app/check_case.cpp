@@ -27,20 +27,19 @@ std::string names_of(const Map& map, const Other& without) {
     return names;
 }
 
-}  // namespace
+/// What a few steps took: long enough to be timed, far too few to go anywhere.
+struct Measured {
+    double dt = 0, per_step = 0;  ///< s: the last step, wall time of one
+};
 
-void check_case(const std::filesystem::path& deck, const std::vector<std::string>& set, int threads,
-                std::ostream& out) {
+Measured measure_steps(const Case& built) {
     using Clock = std::chrono::steady_clock;
-    const std::string too_many_threads = use_threads(threads);
-    Case built = build_case(read_deck(deck, set));
-
-    // a few steps: long enough to be timed, far too few to go anywhere
     constexpr double measured_seconds = 0.3;
     constexpr int most_steps = 200;
     State state = built.system->initial_state();
     int steps = 0;
-    double dt = 0, t_measured = 0;
+    double t_measured = 0;
+    Measured measured;
     Clock::time_point started;
     March march;
     march.t_end = built.options.run.t_end;
@@ -48,16 +47,67 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     march.after_start = [&] { started = Clock::now(); };
     march.after_step = [&](const StepReport& step) {
         steps += static_cast<int>(step.n_steps);
-        dt = step.dt;
+        measured.dt = step.dt;
         t_measured = std::chrono::duration<double>(Clock::now() - started).count();
         return steps < most_steps && t_measured < measured_seconds;
     };
     march.run(*built.system, *built.integrator, state, false);
+    measured.per_step = t_measured / steps;
+    return measured;
+}
 
-    const double n_steps = std::ceil(built.options.run.t_end / dt), per_step = t_measured / steps;
-    const auto line = [&out](const char* what, const std::string& value) {
-        if (!value.empty()) out << fmt::format("{:<20}{}\n", what, value);
-    };
+/// A row of what check prints; nothing where there is nothing to say.
+void print_line(std::ostream& out, const char* what, const std::string& value) {
+    if (!value.empty()) out << fmt::format("{:<20}{}\n", what, value);
+}
+
+void print_cost_of_steps(const Case& built, const Measured& measured, std::ostream& out) {
+    const IntegratorOptions& integrator = built.options.integrator;
+    const double t_end = built.options.run.t_end, n_steps = std::ceil(t_end / measured.dt);
+    const bool adapted = integrator.dt == 0 || integrator.adaptive;
+    print_line(out, "step",
+               integrator.type == "central_difference" && adapted
+                   ? fmt::format("{:.4g} s, {} of the critical step", measured.dt, integrator.safety)
+                   : fmt::format("{:.4g} s, {}", measured.dt, adapted ? "adapted" : "fixed"));
+    print_line(out, "steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, t_end));
+    const Schedule schedule(built.options);
+    print_line(out, "output",
+               fmt::format("about {:.0f} rows, at most {:.0f} frames", schedule.expected_rows(measured.dt),
+                           schedule.most_frames()));
+    print_line(out, "time per step",
+               fmt::format("{:.3g} ms on {}, {:.3g} ns per element", 1e3 * measured.per_step, threads_text(),
+                           1e9 * measured.per_step / static_cast<double>(built.mesh.n_elements())));
+    print_line(out, "run time", fmt::format("about {}, output apart", duration_text(n_steps * measured.per_step)));
+    print_line(out, "memory", fmt::format("about {:.3g} MB", memory_estimate(built) / 1e6));
+}
+
+/// How many load steps and iterations there will be, nobody knows before.
+void print_cost_of_statics(const Case& built, std::ostream& out) {
+    const double first = built.options.integrator.step;
+    print_line(out, "load step",
+               first > 0 ? fmt::format("{:.4g} s at first, then adapted", first)
+                         : "as far as the next stop at first, then adapted");
+    print_line(out, "output", fmt::format("at most {:.0f} frames", Schedule(built.options).most_frames()));
+    const double matrices = built.integrator->matrix_bytes();
+    print_line(out, "memory",
+               fmt::format("about {:.3g} MB", (memory_estimate(built) + matrices) / 1e6) +
+                   (matrices > 0 ? fmt::format(", {:.3g} MB of it the matrix and its factors", matrices / 1e6) : ""));
+}
+
+}  // namespace
+
+void check_case(const std::filesystem::path& deck, const std::vector<std::string>& set, int threads,
+                std::ostream& out) {
+    const std::string too_many_threads = use_threads(threads);
+    Case built = build_case(read_deck(deck, set));
+    Measured measured;
+    if (built.integrator->is_static()) {
+        State state = built.system->initial_state();
+        built.integrator->start(*built.system, state, StartReason::fresh);  // orders the unknowns
+    } else {
+        measured = measure_steps(built);
+    }
+    const auto line = [&out](const char* what, const std::string& value) { print_line(out, what, value); };
     line("deck", deck.string() + ": no errors");
     line("warning", too_many_threads);
     for (const std::string& warning : built.warnings) line("warning", warning);
@@ -73,20 +123,10 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("points", names_of(mesh.node_sets, mesh.boundaries));
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
-    const IntegratorOptions& integrator = built.options.integrator;
-    const bool adapted = integrator.dt == 0 || integrator.adaptive;
-    line("step", integrator.type == "quasi_static" ? fmt::format("{:.4g} s of load time, adapted", dt)
-                 : integrator.type == "central_difference" && adapted
-                     ? fmt::format("{:.4g} s, {} of the critical step", dt, integrator.safety)
-                     : fmt::format("{:.4g} s, {}", dt, adapted ? "adapted" : "fixed"));
-    line("steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, built.options.run.t_end));
-    const Schedule schedule(built.options);
-    line("output",
-         fmt::format("about {:.0f} rows, at most {:.0f} frames", schedule.expected_rows(dt), schedule.most_frames()));
-    line("time per step", fmt::format("{:.3g} ms on {}, {:.3g} ns per element", 1e3 * per_step, threads_text(),
-                                      1e9 * per_step / static_cast<double>(size.n_elements)));
-    line("run time", fmt::format("about {}, output apart", duration_text(n_steps * per_step)));
-    line("memory", fmt::format("about {:.3g} MB", memory_estimate(built) / 1e6));
+    if (built.integrator->is_static())
+        print_cost_of_statics(built, out);
+    else
+        print_cost_of_steps(built, measured, out);
 }
 
 }  // namespace gneiss

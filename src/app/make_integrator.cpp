@@ -5,6 +5,7 @@
 #include "integrators/arkode.hpp"
 #include "integrators/central_difference.hpp"
 #include "integrators/cvode.hpp"
+#include "integrators/dynamic_relaxation.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
 #include "integrators/quasi_static.hpp"
@@ -26,6 +27,10 @@ Options to_a_tolerance(const IntegratorOptions& o) {
     return options;
 }
 
+LoadStepping::Options load_steps(const IntegratorOptions& o) {
+    return {o.tolerance, o.step, o.longest, o.shortest, o.most_iterations};
+}
+
 std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
     using Scheme = GeneralizedAlpha::Scheme;
     GeneralizedAlpha::Options options;
@@ -38,7 +43,7 @@ std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
     options.longest = o.longest;
     options.scales = scales(o);
     options.tolerance = o.tolerance;
-    options.most_iterations = o.most_iterations;
+    if (o.most_iterations > 0) options.most_iterations = o.most_iterations;
     options.solver = o.solver;
     return std::make_unique<GeneralizedAlpha>(options);
 }
@@ -70,9 +75,8 @@ std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
     if (o.type == "central_difference")
         return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
-    if (o.type == "quasi_static")
-        return std::make_unique<QuasiStatic>(
-            QuasiStatic::Options{o.tolerance, o.step, o.longest, o.shortest, o.most_iterations, o.solver});
+    if (o.type == "quasi_static") return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), o.solver});
+    if (o.type == "dynamic_relaxation") return std::make_unique<DynamicRelaxation>(load_steps(o));
     if (o.type == "generalized_alpha" || o.type == "newmark" || o.type == "hht_alpha") return make_alpha(o);
     if (o.type == "cvode") return make_cvode(o);
     if (o.type == "arkode") return make_arkode(o);

@@ -50,7 +50,13 @@ private:
     EnergyLedger ledger() const;
     void begin();
     bool after_step(const StepReport& step);
+    bool within_step(const StepProgress& progress);
     void write_rows(double dt);
+    template <class Body>
+    void for_each_table(Body body) {
+        for (auto* table : {&history_file_, &probes_file_, &steps_file_})
+            if (*table) body(**table);
+    }
     void write_frame() { frames_->write(*case_.system, state_, progress_.step); }
     void write_checkpoint();
     void write_summary_file(RunStatus status, const std::string& message = "");
@@ -75,7 +81,7 @@ private:
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
     std::optional<Schedule> schedule_;
-    std::optional<CsvSeries> history_file_, probes_file_;
+    std::optional<CsvSeries> history_file_, probes_file_, steps_file_;
     std::optional<FieldFrames> frames_;
     std::optional<Progress> bar_;
 };
@@ -114,7 +120,8 @@ void Run::open_results() {
     make_folder(out_);
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)
-        for (const char* name : {"checkpoint.h5", "probes.csv", "summary.json"}) fs::remove(out_ / name);
+        for (const char* name : {"checkpoint.h5", "probes.csv", "load_steps.csv", "summary.json"})
+            fs::remove(out_ / name);
     log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
     log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
     for (const std::string& set : arguments_.set) log_->info("set: {}", set);
@@ -129,6 +136,8 @@ void Run::open_results() {
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
     history_file_.emplace(out_ / "history.csv", history_columns(), restart_time);
     if (!case_.probes.empty()) probes_file_.emplace(out_ / "probes.csv", case_.probes.columns(), restart_time);
+    if (!case_.integrator->step_columns().empty())
+        steps_file_.emplace(out_ / "load_steps.csv", step_columns(*case_.integrator), restart_time);
     frames_.emplace(out_, case_.mesh, restart_time);
 }
 
@@ -162,8 +171,7 @@ void Run::write_rows(double dt) {
 
 void Run::write_checkpoint() {
     // A checkpoint must not be ahead of the tables: after a crash, a restart could not bring the missing rows back.
-    history_file_->flush();
-    if (probes_file_) probes_file_->flush();
+    for_each_table([](CsvSeries& table) { table.flush(); });
     save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_);
 }
 
@@ -171,6 +179,8 @@ bool Run::after_step(const StepReport& step) {
     if (progress_.step == first_step_) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
     progress_.step += step.n_steps;
     last_dt_ = step.dt;
+    if (!step.warning.empty()) log_->warn("{}", step.warning);
+    if (steps_file_) steps_file_->row(step_row(step), {step.rejected});
     if (schedule_->row_due(step)) write_rows(step.dt);
     if (schedule_->frame_due(step)) write_frame();
     if (schedule_->checkpoint_due(step)) {
@@ -178,14 +188,23 @@ bool Run::after_step(const StepReport& step) {
         case_.integrator->forget(*case_.system, state_);
         log_->info("checkpoint: step = {}, t = {:.9g}", progress_.step, step.t);
     }
-    history_file_->flush_if_due();
-    if (probes_file_) probes_file_->flush_if_due();
+    for_each_table([](CsvSeries& table) { table.flush_if_due(); });
     bar_->update([&] { return progress_state(); });
     return !stop_request_.requested();
 }
 
+bool Run::within_step(const StepProgress& progress) {
+    bar_->update([&] {
+        ProgressState shown = progress_state();
+        shown.within = fmt::format("iteration {}: {:.1e} out of balance", progress.iteration, progress.unbalanced);
+        return shown;
+    });
+    return !stop_request_.requested();
+}
+
 ProgressState Run::progress_state() const {
-    return {state_.t, case_.options.run.t_end, static_cast<std::int64_t>(progress_.step), last_dt_, balance_error_, {}};
+    return {state_.t, case_.options.run.t_end, static_cast<std::int64_t>(progress_.step), last_dt_, balance_error_, {},
+            {}};
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
@@ -199,8 +218,7 @@ void Run::write_summary_file(RunStatus status, const std::string& message) {
 }
 
 int Run::end(RunStatus status, const std::string& message, int code) {
-    history_file_->close();
-    if (probes_file_) probes_file_->close();
+    for_each_table([](CsvSeries& table) { table.close(); });
     if (begun_) write_checkpoint();
     write_summary_file(status, message);
     balance_error_ = ledger().balance_error();
@@ -214,7 +232,11 @@ int Run::end(RunStatus status, const std::string& message, int code) {
 }
 
 int Run::end_failed(const std::exception& error) {
-    log_->error("{}", error.what());
+    std::string message = error.what();
+    if (begun_)
+        message +=
+            fmt::format("; the last good state, t = {:.9g} s, is in {}", state_.t, (out_ / "checkpoint.h5").string());
+    log_->error("{}", message);
     if (begun_) {
         // The failed step has left the integrator between two states: let it start from the last good one, so that the
         // energies and the checkpoint are those of this state.
@@ -226,7 +248,7 @@ int Run::end_failed(const std::exception& error) {
         if (history_file_->last_time() != state_.t) write_rows(last_dt_);
     }
     write_frame();
-    return end(RunStatus::failed, error.what(), exit_code::failed);
+    return end(RunStatus::failed, message, exit_code::failed);
 }
 
 int Run::march() {
@@ -236,6 +258,7 @@ int Run::march() {
     march.next_look = [this](double t) { return schedule_->next_look(t); };
     march.after_start = [this] { begin(); };
     march.after_step = [this](const StepReport& step) { return after_step(step); };
+    march.within_step = [this](const StepProgress& progress) { return within_step(progress); };
     try {
         if (march.run(*case_.system, *case_.integrator, state_, resumed_) == MarchOutcome::finished)
             return end(RunStatus::done, "", exit_code::done);

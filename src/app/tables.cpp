@@ -39,6 +39,19 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
             ledger.balance_error()};
 }
 
+std::vector<CsvColumn> step_columns(const Integrator& integrator) {
+    std::vector<CsvColumn> columns{{"t", "s"}, {"dt", "s"}, {"rejected"}};
+    for (const StepColumn& column : integrator.step_columns()) columns.push_back({column.name, column.unit});
+    columns.push_back({"why_rejected"});
+    return columns;
+}
+
+std::vector<double> step_row(const StepReport& step) {
+    std::vector<double> row{step.t, step.dt, static_cast<double>(step.n_rejected)};
+    row.insert(row.end(), step.numbers.begin(), step.numbers.end());
+    return row;
+}
+
 ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) {
     std::vector<Problem> problems;
     for (const ProbeOptions& given : probes) {

@@ -1,5 +1,5 @@
 #pragma once
-// What history.csv and probes.csv hold: columns and rows.
+// What history.csv, probes.csv and load_steps.csv hold: columns and rows.
 
 #include <vector>
 
@@ -8,6 +8,7 @@
 #include "model/energy_ledger.hpp"
 #include "model/options.hpp"
 #include "model/solid_system.hpp"
+#include "system/integrator.hpp"
 
 namespace gneiss {
 
@@ -15,6 +16,12 @@ namespace gneiss {
 std::vector<CsvColumn> history_columns();
 /// One row of it, in the order of history_columns().
 std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger);
+
+/// The columns of load_steps.csv, where integrators report their steps one by one: time, step, trials thrown away, what
+/// else the integrator counts, and why the last trial was thrown away.
+std::vector<CsvColumn> step_columns(const Integrator& integrator);
+/// The numbers of one row of it; StepReport::rejected comes last.
+std::vector<double> step_row(const StepReport& step);
 
 /// Probes: points that keep their place in the material.
 class ProbeTable {

@@ -62,14 +62,20 @@ public:
         std::copy_n(static_cast<const double*>(x_->x), x.size(), x.begin());
     }
 
-    std::size_t factor_bytes() const override {
-        const auto& l = *factor_;
-        const std::size_t numbers = l.is_super ? l.xsize : l.nzmax;
-        const std::size_t indices = l.is_super ? l.ssize + 3 * l.nsuper : l.nzmax + 3 * l.n;
-        return numbers * sizeof(double) + (indices + l.n) * sizeof(SuiteSparse_long);
+    std::size_t factor_bytes() const override { return bytes(factor_->nzmax); }
+    /// The analysis knows the factor exactly.
+    double expected_factor_bytes() const override {
+        return static_cast<double>(bytes(static_cast<std::size_t>(common_.lnz)));
     }
 
 private:
+    /// @param entries  of a factor without supernodes
+    std::size_t bytes(std::size_t entries) const {
+        const auto& l = *factor_;
+        const std::size_t numbers = l.is_super ? l.xsize : entries;
+        const std::size_t indices = l.is_super ? l.ssize + 3 * l.nsuper : entries + 3 * l.n;
+        return numbers * sizeof(double) + (indices + l.n) * sizeof(SuiteSparse_long);
+    }
     /// The upper triangle of the compressed columns is the lower one of the rows.
     cholmod_sparse matrix(const double* values) const {
         cholmod_sparse a{};

@@ -35,6 +35,11 @@ FreeMatrix::FreeMatrix(const SparsePattern& full, std::span<const std::size_t> f
     }
 }
 
+std::size_t FreeMatrix::bytes() const {
+    return free_.size() * sizeof(free_[0]) + (row_starts_.size() + columns_.size()) * sizeof(std::int64_t) +
+           runs_.size() * sizeof(Run) + couplings_.size() * sizeof(Coupling);
+}
+
 void FreeMatrix::take_values(std::span<const double> full, std::span<double> values) const {
     // forwards: values move to the front alone
     double* to = values.data();

@@ -20,6 +20,9 @@ public:
     /// Number in the full matrix of each free degree of freedom, ascending.
     std::span<const std::size_t> free() const { return free_; }
 
+    /// Memory of the pattern and of the way to it.
+    std::size_t bytes() const;
+
     /// @param[out] values  free rows and columns of the full ones; may begin where `full` does
     void take_values(std::span<const double> full, std::span<double> values) const;
     /// @param[out] vector  free entries of a full one

@@ -63,11 +63,16 @@ public:
     void forget() override { klu_l_free_numeric(&numeric_, &common_); }
 
     std::size_t factor_bytes() const override {
-        const auto entries = static_cast<std::size_t>(numeric_->lnz + numeric_->unz);
-        return entries * (sizeof(double) + sizeof(SuiteSparse_long)) + pattern_.n() * 10 * sizeof(double);
+        return static_cast<std::size_t>(bytes(static_cast<double>(numeric_->lnz + numeric_->unz)));
     }
+    /// As long as pivots stay on the diagonal.
+    double expected_factor_bytes() const override { return bytes(symbolic_->lnz + symbolic_->unz); }
 
 private:
+    double bytes(double entries) const {
+        return entries * static_cast<double>(sizeof(double) + sizeof(SuiteSparse_long)) +
+               static_cast<double>(pattern_.n() * 10 * sizeof(double));
+    }
     /// For klu_l_analyze(). @return entries of L to be expected, 0 if there is no memory
     static SuiteSparse_long order(SuiteSparse_long n, SuiteSparse_long*, SuiteSparse_long*, SuiteSparse_long* unknowns,
                                   klu_l_common* common) {

@@ -53,6 +53,8 @@ public:
     }
     void solve(std::span<const double> b, std::span<double> x) override { last_->solve(b, x); }
     std::size_t factor_bytes() const override { return last_->factor_bytes(); }
+    double expected_factor_bytes() const override { return definite_->expected_factor_bytes(); }
+    bool indefinite() const override { return last_ != nullptr && last_ == general_.get(); }
 
 private:
     SparsePattern pattern_;

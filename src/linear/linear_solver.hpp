@@ -59,6 +59,10 @@ public:
     virtual void forget() {}
     /// Memory of the last factorisation, bytes.
     virtual std::size_t factor_bytes() const = 0;
+    /// The same of a factorisation to come, from the pattern analysed; 0: cannot be told.
+    virtual double expected_factor_bytes() const { return 0; }
+    /// Whether the last matrix factorised is known to have a negative eigenvalue.
+    virtual bool indefinite() const { return false; }
 };
 
 /// L L^T of symmetric positive definite matrices, by CHOLMOD: supernodes and BLAS where they pay.

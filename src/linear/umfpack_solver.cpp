@@ -55,6 +55,17 @@ public:
         std::ranges::copy(x_, x.begin());
     }
 
+    /// An upper bound, far above what a matrix of symmetric pattern needs.
+    double expected_factor_bytes() const override {
+        return info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT];
+    }
+    /// A negative determinant: an odd number of negative eigenvalues.
+    bool indefinite() const override {
+        double mantissa = 1, exponent = 0;
+        umfpack_dl_get_determinant(&mantissa, &exponent, numeric_, nullptr);
+        return mantissa < 0;
+    }
+
     std::size_t factor_bytes() const override {
         return static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE] * info_[UMFPACK_SIZE_OF_UNIT]);
     }

@@ -105,6 +105,9 @@ public:
     /// Adds c_u df/du + c_v df/dv of packs [first, last), memory updated with u.
     virtual void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
                              const MatrixPlaces& places, double* values) const = 0;
+    /// Adds the sums of |entries| of the rows of sym(-df/du) of packs [first, last), N/m, memory updated with u.
+    virtual void add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
+                              const LocalNodes& local) const = 0;
     /// z' at given z.
     virtual void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const = 0;
 

@@ -144,8 +144,13 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
         return at;
     };
     prepare_scratch();
-    for_each_chunk(
-        [&](std::size_t c, const Chunk& chunk) { inverted_[c] = chunk_force(chunk, evaluation_of(chunk.block), f); });
+    for_each_chunk([&](std::size_t c, const Chunk& chunk) {
+        const ElementBlock::Evaluation at = evaluation_of(chunk.block);
+        inverted_[c] =
+            chunk_sum(chunk, at, f,
+                      [&](const ElementBlock& block, std::size_t first, std::size_t last,
+                          const ElementBlock::LocalNodes& local) { return block.add_force(first, last, at, local); });
+    });
     for (std::size_t c = 0; c < chunks_.size(); ++c)
         if (inverted_[c] != ElementBlock::none)
             throw_inverted(chunks_[c].block, inverted_[c], evaluation_of(chunks_[c].block), trial.t);
@@ -158,8 +163,23 @@ void ElementForces::prepare_scratch() const {
     for (std::vector<double>& scratch : scratch_) scratch.resize(6 * largest_chunk_);
 }
 
-std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at,
-                                          std::span<double> f) const {
+void ElementForces::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
+    prepare_scratch();
+    for_each_chunk([&](std::size_t, const Chunk& chunk) {
+        const ElementBlock::Evaluation at = evaluation(chunk.block, accepted, trial);
+        chunk_sum(
+            chunk, at, bound,
+            [&](const ElementBlock& block, std::size_t first, std::size_t last, const ElementBlock::LocalNodes& local) {
+                block.add_row_sums(first, last, at, local);
+                return ElementBlock::none;
+            });
+    });
+    add_shared(bound);
+}
+
+template <class Add>
+std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f,
+                                        Add add) const {
     const ElementBlock& block = *blocks_[chunk.block];
     const std::size_t n = chunk.last_node - chunk.first_node;
     double* u = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
@@ -181,7 +201,7 @@ std::ptrdiff_t ElementForces::chunk_force(const Chunk& chunk, const ElementBlock
          ++i, pack += piece) {
         // meanwhile the nodes of the next chunk, about as many as this one has, come to a nearer cache
         if (far_) prefetch_nodes(chunk.last_node + n * i / n_pieces, chunk.last_node + n * (i + 1) / n_pieces, at.u, f);
-        inverted = block.add_force(pack, std::min(pack + piece, chunk.last), at, {u, v, local_f});
+        inverted = add(block, pack, std::min(pack + piece, chunk.last), ElementBlock::LocalNodes{u, v, local_f});
     }
     const std::size_t n_own = chunk.first_shared - chunk.first_node;
     const auto scatter = [](const double* from, const std::int32_t* where, std::size_t count, double* to) {

@@ -39,6 +39,8 @@ public:
 
     ElementBlock::Sums energies(const State& accepted, const Trial& trial) const;
     ElementBlock::Rates largest_rates(const State& accepted) const;
+    /// SemiDiscrete::stiffness_bound().
+    void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const;
     /// Where block number `block` reads its part.
     ElementBlock::Evaluation evaluation(std::size_t block, const State& accepted, const Trial& trial) const;
 
@@ -54,7 +56,11 @@ private:
     template <class Body>
     void for_each_chunk(Body body) const;
     std::pair<std::span<const std::int32_t>, std::span<PairBytes>> nodes_of(const Chunk& chunk);
-    std::ptrdiff_t chunk_force(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f) const;
+    /// Nodal sums of what add(block, first pack, last pack, local nodes) adds.
+    /// @return what add() returned first that was not ElementBlock::none
+    template <class Add>
+    std::ptrdiff_t chunk_sum(const Chunk& chunk, const ElementBlock::Evaluation& at, std::span<double> f,
+                             Add add) const;
     void prefetch_nodes(std::size_t first, std::size_t last, const double* u, std::span<double> f) const;
     void prepare_scratch() const;
     void add_shared(std::span<double> f) const;

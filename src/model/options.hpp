@@ -120,10 +120,10 @@ struct IntegratorOptions {
     int max_order = 0;
     double rtol = 1e-6, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
 
-    // quasi_static: QuasiStatic::Options
+    // quasi_static, dynamic_relaxation: LoadStepping::Options
     double tolerance = 1e-9, step = 0, longest = 0, shortest = 1e-6;
-    int most_iterations = 20;
-    std::string solver = "automatic";
+    int most_iterations = 0;
+    std::string solver = "automatic";  ///< quasi_static
 };
 
 struct RunOptions {

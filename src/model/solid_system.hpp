@@ -42,6 +42,10 @@ public:
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
+    /// Of the elements, whose stiffness is far larger than that of a follower pressure.
+    void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override {
+        elements_.stiffness_bound(accepted, trial, bound);
+    }
     StoredEnergies stored_energies(const State& state) const override;
     void add_path_energies(const State& from, State& to) const override;
     std::span<const std::unique_ptr<Event>> events() const override { return events_; }

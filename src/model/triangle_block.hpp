@@ -48,6 +48,8 @@ public:
     }
     GNEISS_FLATTEN void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
                                     const MatrixPlaces& places, double* values) const override;
+    GNEISS_FLATTEN void add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
+                                     const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;

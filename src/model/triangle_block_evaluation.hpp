@@ -139,6 +139,25 @@ void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::
     }
 }
 
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
+                                                         const LocalNodes& local) const {
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const auto* index = local_nodes_.data() + pack * index_stride;
+        const PackGeometry g = geometry(pack);
+        const auto kinematics = triangle_kinematics<Element, sampling>(gather(local.u, index), g);
+        ElementMatrix<Element, Pack> matrix;
+        for (auto& row : matrix) row.fill(Pack(0.0));
+        add_law_tangent<Element, sampling, false>(law_, kinematics, g, load_memory(at, pack), 1.0, matrix);
+        std::array<Pack, n_dof> sums;
+        sums.fill(Pack(0.0));
+        for (std::size_t i = 0; i < n_dof; ++i)
+            for (std::size_t j = 0; j < n_dof; ++j) sums[i] += Pack(0.5) * xsimd::abs(matrix[i][j] + matrix[j][i]);
+        for (int node = 0; node < Element::n_nodes; ++node)
+            scatter_add_pairs(local.f, index + node * pack_width, sums[2 * node], sums[2 * node + 1]);
+    }
+}
+
 // ---- energies and bounds
 // -----------------------------------------------------------------------------------------------
 

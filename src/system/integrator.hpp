@@ -2,8 +2,10 @@
 // A time integrator: it sees a semi-discrete system and its state, never an element, a material or a contact pair.
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,11 +22,33 @@ enum class StartReason {
 
 /// What one accepted step was, or several of them taken in one go.
 struct StepReport {
-    double t = 0;                ///< time reached, s
-    double dt = 0;               ///< of the last step, s
-    std::size_t n_rejected = 0;  ///< trials thrown away on the way
-    std::size_t n_force = 0;     ///< force evaluations
-    std::size_t n_steps = 1;     ///< accepted steps, >= 1
+    double t = 0;                      ///< time reached, s
+    double dt = 0;                     ///< of the last step, s
+    std::size_t n_rejected = 0;        ///< trials thrown away on the way
+    std::size_t n_force = 0;           ///< force evaluations
+    std::size_t n_steps = 1;           ///< accepted steps, >= 1
+    std::vector<double> numbers = {};  ///< what Integrator::step_columns() names
+    std::string rejected = {};         ///< why the last trial thrown away was; empty: none was
+    std::string warning = {};          ///< what a user should know once
+};
+
+/// A number that an integrator reports of each of its steps.
+struct StepColumn {
+    std::string name;
+    std::string unit = {};
+};
+
+/// Where a step stands that takes many iterations.
+struct StepProgress {
+    double t = 0;               ///< time that the step goes to, s
+    std::size_t iteration = 0;  ///< of this trial of it
+    double unbalanced = 0;      ///< largest force out of balance over the largest force
+};
+
+/// Ends a step whose watcher wants no more of it.
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted() : std::runtime_error("a step was interrupted") {}
 };
 
 /// An integrator's own memory, by name: saved in checkpoints beside the state.
@@ -39,6 +63,12 @@ class Integrator {
 public:
     virtual ~Integrator() = default;
     virtual std::string name() const = 0;
+    /// Whether time is load time and nothing moves: no inertia, no damping.
+    virtual bool is_static() const { return false; }
+    /// What it reports of each step beside StepReport's own members; empty: its steps are not worth a table.
+    virtual std::vector<StepColumn> step_columns() const { return {}; }
+    /// Matrices and their factors, bytes, as far as the pattern tells; once started.
+    virtual double matrix_bytes() const { return 0; }
 
     /// Takes the system and an accepted state. Also called after an event that asks for it.
     virtual void start(const SemiDiscrete& system, State& state, StartReason why) = 0;
@@ -56,6 +86,10 @@ public:
         return advance(system, state, t_stop);
     }
 
+    /// @param watcher  called in every iteration of a step that iterates; where it returns false the step ends with
+    /// Interrupted, and state and memory are those of the last accepted one. Empty: nobody watches.
+    void watch(std::function<bool(const StepProgress&)> watcher) { watcher_ = std::move(watcher); }
+
     /// Kinetic energy in the measure in which this integrator's balance is sharpest, J.
     virtual double kinetic_energy(const SemiDiscrete& system, const State& state) const = 0;
     /// Forces of supports on the constrained degrees of freedom at the last accepted state, N, shape (constraints).
@@ -71,6 +105,15 @@ public:
         (void)state;
     }
     virtual void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) = 0;
+
+protected:
+    /// @throws Interrupted
+    void tell(const StepProgress& progress) const {
+        if (watcher_ && !watcher_(progress)) throw Interrupted();
+    }
+
+private:
+    std::function<bool(const StepProgress&)> watcher_;
 };
 
 }  // namespace gneiss

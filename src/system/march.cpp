@@ -13,6 +13,20 @@ double next_event_time(const SemiDiscrete& system, const State& state) {
     return next;
 }
 
+/// Watches an integrator as long as it lives.
+class Watch {
+public:
+    Watch(Integrator& integrator, const std::function<bool(const StepProgress&)>& watcher) : integrator_(integrator) {
+        integrator_.watch(watcher);
+    }
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+    ~Watch() { integrator_.watch({}); }
+
+private:
+    Integrator& integrator_;
+};
+
 /// The first of some times, or the last of those that are the same instant.
 double first_instant(std::initializer_list<double> times) {
     double first = std::min(times);
@@ -34,6 +48,7 @@ EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
 }  // namespace
 
 MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, State& state, bool resumed) const {
+    const Watch watch(integrator, within_step);
     if (!resumed) {
         apply_due_events(system, state);
         integrator.start(system, state, StartReason::fresh);
@@ -42,22 +57,26 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
     // an event that watches the state sees every step
     const bool unseen =
         next_look && std::ranges::all_of(system.events(), [](const auto& event) { return event->n_indicators() == 0; });
-    while (state.t < t_end) {
-        const double planned = next_stop ? next_stop(state.t) : t_end;
-        const double stop = first_instant({t_end, planned, next_event_time(system, state)});
-        const StepReport step = unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
-                                       : integrator.advance(system, state, stop);
-        switch (apply_due_events(system, state)) {
-            case EventOutcome::none:
-                break;
-            case EventOutcome::reinitialise:
-                integrator.start(system, state, StartReason::reinitialise);
-                break;
-            case EventOutcome::resize:
-                integrator.start(system, state, StartReason::resize);
-                break;
+    try {
+        while (state.t < t_end) {
+            const double planned = next_stop ? next_stop(state.t) : t_end;
+            const double stop = first_instant({t_end, planned, next_event_time(system, state)});
+            const StepReport step = unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
+                                           : integrator.advance(system, state, stop);
+            switch (apply_due_events(system, state)) {
+                case EventOutcome::none:
+                    break;
+                case EventOutcome::reinitialise:
+                    integrator.start(system, state, StartReason::reinitialise);
+                    break;
+                case EventOutcome::resize:
+                    integrator.start(system, state, StartReason::resize);
+                    break;
+            }
+            if (after_step && !after_step(step) && state.t < t_end) return MarchOutcome::interrupted;
         }
-        if (after_step && !after_step(step) && state.t < t_end) return MarchOutcome::interrupted;
+    } catch (const Interrupted&) {
+        return MarchOutcome::interrupted;
     }
     return MarchOutcome::finished;
 }

@@ -30,6 +30,8 @@ struct March {
     /// Called after every accepted step that is not passed unseen, once its events have been applied. Returns false to
     /// stop.
     std::function<bool(const StepReport& step)> after_step;
+    /// Called in every iteration of steps that iterate. Returns false to stop before the step is done.
+    std::function<bool(const StepProgress& progress)> within_step = {};
 
     /// Applies events that are due, starts the integrator unless it goes on from a checkpoint, and steps to t_end.
     /// @param resumed  true: the integrator has been loaded

@@ -107,6 +107,14 @@ public:
 
     /// From the tangents in the accepted state.
     virtual FrequencyBound frequency_bound(const State& accepted) const = 0;
+    /// A diagonal matrix D with x.K x <= x.D x for K = -df/du at a trial: fictitious masses of pseudo-time. Where
+    /// nothing better is known it is the mass times the square of the largest frequency of the accepted state.
+    /// @param[out] bound  overwritten, N/m, shape (n_dof)
+    virtual void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
+        (void)trial;
+        const double omega = frequency_bound(accepted).omega;
+        for (std::size_t i = 0; i < bound.size(); ++i) bound[i] = omega * omega * lumped_mass()[i];
+    }
 
     virtual StoredEnergies stored_energies(const State& state) const = 0;
     /// Adds to to.path what the step between two accepted states adds: the work of loads and the dissipation of

@@ -97,7 +97,7 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
     {"expression", AmplitudeOptions::Kind::expression, "an expression of t, x and y"},
 }};
 
-inline const std::array<Choice<std::string>, 8> integrators{{
+inline const std::array<Choice<std::string>, 9> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
     {"generalized_alpha", "generalized_alpha", "implicit, order 2, damps high frequencies alone (Chung and Hulbert)"},
     {"newmark", "newmark", "implicit, order 2 where `gamma` is 1/2"},
@@ -106,6 +106,8 @@ inline const std::array<Choice<std::string>, 8> integrators{{
     {"arkode", "arkode", "Runge-Kutta: explicit, implicit or both, to a tolerance or with fixed steps (SUNDIALS)"},
     {"ida", "ida", "BDF of the system in residual form, to a tolerance (SUNDIALS)"},
     {"quasi_static", "quasi_static", "equilibria under growing loads, by Newton's method; time is load time"},
+    {"dynamic_relaxation", "dynamic_relaxation",
+     "equilibria under growing loads, by a damped explicit loop; time is load time"},
 }};
 
 inline constexpr std::array<Choice<bool>, 2> multistep_methods{{

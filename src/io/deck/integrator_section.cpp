@@ -10,12 +10,15 @@ const Section<IntegratorOptions>& integrator_section() {
     using I = IntegratorOptions;
     using Types = std::vector<Condition>;
     const Types leapfrog{{"type", {"central_difference"}}}, newmark{{"type", {"newmark"}}}, cvode{{"type", {"cvode"}}},
-        statics{{"type", {"quasi_static"}}}, alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}},
-        multistep{{"type", {"cvode", "ida"}}},
+        statics{{"type", {"quasi_static", "dynamic_relaxation"}}},
+        alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}}, multistep{{"type", {"cvode", "ida"}}},
         stepped{{"type", {"central_difference", "generalized_alpha", "newmark", "hht_alpha", "arkode"}}},
         controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}},
-        newton{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha"}}},
-        limited{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}};
+        balanced{{"type", {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha"}}},
+        limited{{"type",
+                 {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode",
+                  "ida"}}},
+        solved{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}};
     static const Section<I> section{
         {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
          number("safety", &I::safety,
@@ -72,10 +75,12 @@ const Section<IntegratorOptions>& integrator_section() {
                  .meaning = "the same of the stresses that hypo-elastic materials carry"}),
          number("tolerance", &I::tolerance,
                 {.range = half_open(0, 0.01),
-                 .only_for = newton,
+                 .only_for = balanced,
                  .meaning = "largest force out of balance over the largest force of the step"}),
          integer("most_iterations", &I::most_iterations,
-                 {.range = at_least(1), .only_for = newton, .meaning = "of Newton's method in a step"}),
+                 {.range = at_least(0),
+                  .only_for = balanced,
+                  .meaning = "in a step; 0: 20 of Newton's method, 1000000 of dynamic relaxation"}),
          number("step", &I::step,
                 {.unit = "s",
                  .range = at_least(0),
@@ -87,7 +92,7 @@ const Section<IntegratorOptions>& integrator_section() {
                 {.range = open_between(0, 1),
                  .only_for = statics,
                  .meaning = "load step, as a part of the first one, at which a run gives up"}),
-         choice("solver", &I::solver, linear_solvers, {.only_for = limited, .meaning = "of the linear systems"})}};
+         choice("solver", &I::solver, linear_solvers, {.only_for = solved, .meaning = "of the linear systems"})}};
     return section;
 }
 

@@ -20,22 +20,33 @@ namespace {
 // More than this is not kept back, however short the time since the last write.
 constexpr std::size_t largest_wait = 1 << 16;  // bytes
 
-/// Quotes a name that holds a separator [RFC 4180, 2].
-std::string quoted(const std::string& field) {
-    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+/// Quotes a field that holds a separator [RFC 4180, 2]; a line break becomes a blank, so that a row is a line.
+std::string field_text(std::string_view field) {
+    if (field.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(field);
     std::string text = "\"";
     for (const char c : field) {
         if (c == '"') text += '"';
-        text += c;
+        text += c == '\r' || c == '\n' ? ' ' : c;
     }
     return text + '"';
+}
+
+/// Fields of a line; separators between quotes do not count.
+std::size_t n_fields(std::string_view line) {
+    std::size_t n = 1;
+    bool inside = false;
+    for (const char c : line) {
+        if (c == '"') inside = !inside;
+        if (c == ',' && !inside) ++n;
+    }
+    return n;
 }
 
 std::string header_of(const std::vector<CsvColumn>& columns) {
     std::string header;
     for (const CsvColumn& column : columns) {
         if (!header.empty()) header += ',';
-        header += quoted(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+        header += field_text(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
     }
     return header + '\n';
 }
@@ -71,8 +82,7 @@ Kept rows_to_keep(const std::filesystem::path& path, const std::string& header, 
         const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), t);
         const bool is_time = error == std::errc() && (rest == line.data() + line.size() || *rest == ',');
         ++line_number;
-        const auto n_fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
-        if (!is_time || n_fields != n_columns)
+        if (!is_time || n_fields(line) != n_columns)
             throw InputError(fmt::format("{}:{}", path.string(), line_number),
                              "cannot go on with this table: '" + std::string(line) + "' is no row of it");
         if (t > restart_time) break;
@@ -107,14 +117,15 @@ CsvSeries::~CsvSeries() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void CsvSeries::row(std::span<const double> values) {
-    if (values.size() != n_columns_)
-        throw std::invalid_argument(
-            fmt::format("{}: a row of {} numbers for {} columns", path_.string(), values.size(), n_columns_));
+void CsvSeries::row(std::span<const double> values, std::initializer_list<std::string_view> texts) {
+    if (values.size() + texts.size() != n_columns_)
+        throw std::invalid_argument(fmt::format("{}: a row of {} fields for {} columns", path_.string(),
+                                                values.size() + texts.size(), n_columns_));
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (k > 0) waiting_ += ',';
         append_number(waiting_, values[k]);
     }
+    for (const std::string_view text : texts) waiting_.append(",").append(field_text(text));
     waiting_ += '\n';
     last_time_ = values[0];
     if (waiting_.size() >= largest_wait)

@@ -1,11 +1,13 @@
 #pragma once
-// Numbers against time, one row per time: history.csv, probes.csv.
+// Numbers against time, one row per time: history.csv, probes.csv, load_steps.csv.
 
 #include <chrono>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gneiss {
@@ -37,9 +39,10 @@ public:
     CsvSeries& operator=(const CsvSeries&) = delete;
 
     /// Adds a row: the time, then the other columns. It reaches the file within flush_interval of later calls.
+    /// @param texts  of the last columns, those that hold no numbers
     /// @throws std::invalid_argument if the row has another length than the header
     /// @throws IoError
-    void row(std::span<const double> values);
+    void row(std::span<const double> values, std::initializer_list<std::string_view> texts = {});
 
     /// Writes what is waiting if the last write was more than flush_interval ago. One look at the clock: call it
     /// where a long time may pass between rows.

@@ -33,15 +33,17 @@ std::string balance_text(const ProgressState& state) {
 }
 
 std::vector<Field> fields_of(const ProgressState& state, double left) {
+    const bool within = !state.within.empty();
     std::vector<Field> fields{
         {percent_text(state), 0},
-        {fmt::format("t = {:.2e} / {:.2e} s", state.t, state.t_end), 2},
-        {fmt::format("step {}", state.step), 4},
-        {fmt::format("dt = {:.1e} s", state.dt), 5},
-        {"left " + duration_text(left), 1},
+        {fmt::format("t = {:.2e} / {:.2e} s", state.t, state.t_end), 3},
+        {fmt::format("step {}", state.step), 5},
     };
-    if (!std::isnan(state.balance_error)) fields.push_back({balance_text(state), 3});
-    int rank = 6;
+    if (within) fields.push_back({state.within, 1});
+    if (!within) fields.push_back({fmt::format("dt = {:.1e} s", state.dt), 6});
+    fields.push_back({"left " + duration_text(left), 2});
+    if (!within && !std::isnan(state.balance_error)) fields.push_back({balance_text(state), 4});
+    int rank = 7;
     for (const std::string& text : state.extra) fields.push_back({text, rank++});
     return fields;
 }

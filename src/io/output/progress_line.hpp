@@ -18,6 +18,7 @@ struct ProgressState {
     double balance_error =
         std::numeric_limits<double>::quiet_NaN();  ///< of the energy, relative; nan: not known, not shown
     std::vector<std::string> extra = {};           ///< what else there is to say, most important first: "12 cracks"
+    std::string within = {};  ///< where a long step stands, instead of dt and balance: "iteration 300"
 };
 
 /// Estimates the wall time left from how fast simulated time passes: the mean over the last `memory` seconds of wall

@@ -54,30 +54,6 @@ TEST_F(ProgramRun, WrongUse_IsRefusedWithTwo) {
     EXPECT_FALSE(exists("results"));
 }
 
-TEST_F(ProgramRun, QuasiStatic_UnderARamp_StoresTheWorkOfTheLoad) {
-    std::string deck = small_deck;
-    const std::string value = "value = 1e6\n";
-    deck.replace(deck.find(value), value.size(), value + "amplitude = { type = \"ramp\", end = 1e-3 }\n");
-    put("case.toml", deck);
-    const Ended ended = gneiss({"run", "case.toml", "--quiet", "--set", "integrator.type=quasi_static"});
-    ASSERT_EQ(ended.code, 0) << ended.err;
-    const nlohmann::json found = summary("results/case");
-    EXPECT_EQ(found["status"], "done");
-    EXPECT_EQ(found["energies_J"]["kinetic"], 0);
-    EXPECT_GT(found["energies_J"]["external_work"], 0);
-    EXPECT_LE(found["counts"]["steps"], 4) << "one for each frame";
-    EXPECT_LE(found["balance_error"], 1e-3) << "of the order of the strains: the force bends by so much";
-}
-
-TEST_F(ProgramRun, QuasiStatic_WhatHasNoEffect_IsNamed) {
-    put("case.toml", small_deck);
-    const Ended ended = gneiss({"check", "case.toml", "--set", "integrator.type=quasi_static", "run.mass_damping=3"});
-    EXPECT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("run.mass_damping: has no effect"));
-    EXPECT_THAT(ended.out, HasSubstr("load with a constant amplitude"));
-    EXPECT_THAT(ended.out, HasSubstr("of load time, adapted"));
-}
-
 TEST_F(ProgramRun, List_WithAndWithoutTopic_NamesWhatADeckTakes) {
     const std::string everything = gneiss({"list"}).out;
     for (const char* name : {"compt", "munjiza", "central_difference", "pressure", "absorbing", "heaviside"})

@@ -81,10 +81,23 @@ TEST_F(CsvOutput, NamesWithCommasOrQuotes_AreQuoted) {
     EXPECT_EQ(contents(path), "t [s],\"p 1, \"\"left\"\" [Pa]\"\n");
 }
 
+TEST_F(CsvOutput, TextInTheLastColumn_IsQuotedAndReadAgain) {
+    const std::vector<CsvColumn> with_text{{"t", "s"}, {"steps"}, {"why"}};
+    {
+        CsvSeries series(path, with_text);
+        series.row(std::array{0.1, 1.0}, {""});
+        series.row(std::array{0.2, 2.0}, {"element 3, \"left\"\nis inverted"});
+        series.row(std::array{0.3, 3.0}, {"dropped, as it is later"});
+    }
+    CsvSeries series(path, with_text, 0.2);
+    EXPECT_EQ(contents(path), "t [s],steps,why\n0.1,1,\n0.2,2,\"element 3, \"\"left\"\" is inverted\"\n");
+    EXPECT_EQ(series.last_time(), 0.2);
+}
+
 TEST_F(CsvOutput, RowOfOtherLength_IsRefused) {
     CsvSeries series(path, columns);
     EXPECT_EQ(message_of<std::invalid_argument>([&] { series.row(std::array{1.0}); }),
-              path.string() + ": a row of 1 numbers for 3 columns");
+              path.string() + ": a row of 1 fields for 3 columns");
     EXPECT_THROW(CsvSeries(path, {}), std::invalid_argument);
 }
 

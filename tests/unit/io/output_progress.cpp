@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-ProgressState example() { return {0.008, 0.02, 12000, 2e-7, 3.14e-5, {"12 cracks"}}; }
+ProgressState example() { return {0.008, 0.02, 12000, 2e-7, 3.14e-5, {"12 cracks"}, {}}; }
 
 std::size_t count(const std::string& text, std::string_view what) {
     std::size_t n = 0;
@@ -49,6 +49,15 @@ TEST(ProgressBar, NarrowerTerminals_LoseTheLeastImportantFields) {
     EXPECT_EQ(progress_bar(example(), 65, 40), "[#####--------]   40 %  left 1 min 05 s");
     EXPECT_EQ(progress_bar(example(), 65, 24), "[#####---------]   40 %");
     EXPECT_EQ(progress_bar(example(), 65, 8), " 40 %");
+}
+
+TEST(ProgressBar, WithinAStep_ItsStateTakesThePlaceOfStepLengthAndBalance) {
+    ProgressState state = example();
+    state.within = "iteration 300: 1.2e-03 out of balance";
+    EXPECT_EQ(progress_bar(state, 65, 200),
+              "[################------------------------]   40 %  t = 8.00e-03 / 2.00e-02 s  step 12000  "
+              "iteration 300: 1.2e-03 out of balance  left 1 min 05 s  12 cracks");
+    EXPECT_THAT(progress_bar(state, 65, 80), HasSubstr("iteration 300"));
 }
 
 TEST(ProgressBar, AnyWidth_FitsAndNeverShrinksWithMoreRoom) {
@@ -190,7 +199,7 @@ protected:
             wall += step_time;
             progress.update([&] {
                 ++states;
-                return ProgressState{wall / 1000, 1, ++step, 1e-6, 1e-5, {}};
+                return ProgressState{wall / 1000, 1, ++step, 1e-6, 1e-5, {}, {}};
             });
         }
     }

@@ -94,6 +94,18 @@ TEST_P(LinearSolverOf, PositiveDefinite_SolvesToRoundOff) {
         EXPECT_LE(backward_error(a, solve(*solver, b), b), 100);
     }
     EXPECT_GT(solver->factor_bytes(), a.pattern.n_nonzero() / 2 * sizeof(double));
+    EXPECT_FALSE(solver->indefinite());
+}
+
+TEST_P(LinearSolverOf, AnalysisAlone_TellsTheMemoryOfTheFactors) {
+    const Sparse a(0.1);
+    solver->analyse(a.pattern);
+    const double expected = solver->expected_factor_bytes();
+    solver->factorise(a.values);
+    const auto needed = static_cast<double>(solver->factor_bytes());
+    constexpr double excess = 10;  // of UMFPACK's upper bound; CHOLMOD knows it exactly, KLU as well as its ordering
+    EXPECT_GE(expected, 0.8 * needed);
+    EXPECT_LE(expected, excess * needed);
 }
 
 TEST_P(LinearSolverOf, InPlace_SameBits) {
@@ -186,7 +198,20 @@ TEST(Automatic, IndefiniteAmongDefinite_SolvesBoth) {
         solver->factorise(a->values);
         const Eigen::VectorXd b = right_side(*a, 1);
         EXPECT_LE(backward_error(*a, solve(*solver, b), b), 1000);
+        EXPECT_EQ(solver->indefinite(), a == &indefinite);
     }
+}
+
+TEST(Umfpack, OddNumberOfNegativeEigenvalues_IsKnown) {
+    const std::vector<std::int64_t> starts{0, 2, 4, 5}, columns{0, 1, 0, 1, 2};
+    const auto solver = make_umfpack();
+    solver->analyse({starts, columns});
+    solver->factorise(std::vector<double>{2, 1, 1, 2, 3});
+    EXPECT_FALSE(solver->indefinite());
+    solver->factorise(std::vector<double>{2, 1, 1, 2, -3});
+    EXPECT_TRUE(solver->indefinite());
+    solver->factorise(std::vector<double>{1, 2, 2, 1, 3});
+    EXPECT_TRUE(solver->indefinite());
 }
 
 TEST(MakeLinearSolver, NamesAndSymmetry_AreChecked) {

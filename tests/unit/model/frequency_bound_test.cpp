@@ -60,6 +60,40 @@ TEST(FrequencyBound, AssembledSolid_AnyState_IsNeverBelowTheLargestFrequency) {
     }
 }
 
+TEST(StiffnessBound, AssembledSolid_AnyState_IsNotBelowTheStiffness) {
+    for (const Volumetric volumetric : {Volumetric::mean, Volumetric::centre}) {
+        for (const bool compt : {false, true}) {
+            if (!compt && volumetric == Volumetric::centre) continue;
+            for (const double strain : {0.0, 0.1}) {
+                test::SolidDescription what;
+                what.solid.volumetric = volumetric;
+                if (volumetric == Volumetric::centre) what.materials[0].stress_map = StressMap::direct;
+                const test::Solid solid = test::distorted_solid(compt, what);
+                const State rest = solid.system->initial_state();
+                State strained = rest;
+                for (std::size_t node = 0; node < solid.mesh.n_nodes(); ++node) {
+                    const auto& [x, y] = solid.mesh.nodes[node];
+                    strained.u[2 * node] = -strain * (x + 0.5 * y * x);
+                    strained.u[2 * node + 1] = strain * (std::sin(x) - y);
+                }
+                std::vector<double> bound(rest.u.size());
+                // at a trial, not at the accepted state
+                solid.system->stiffness_bound(rest, {0, 0, strained.u, strained.v, {}}, bound);
+                const Eigen::VectorXd scale =
+                    Eigen::Map<const Eigen::VectorXd>(bound.data(), static_cast<Eigen::Index>(bound.size()))
+                        .cwiseSqrt()
+                        .cwiseInverse();
+                const Eigen::MatrixXd stiffness = test::dense_stiffness(*solid.system, strained);
+                const Eigen::MatrixXd scaled =
+                    0.5 * scale.asDiagonal() * (stiffness + stiffness.transpose()) * scale.asDiagonal();
+                const double largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff();
+                EXPECT_LE(largest, 1 + 1e-8) << compt << " " << strain;  // differences of forces
+                EXPECT_GE(largest, 1 / largest_excess) << compt << " " << strain;
+            }
+        }
+    }
+}
+
 TEST(FrequencyBound, ViscousSolid_DampingRate_IsNeverBelowTheLargestOfTheAssembly) {
     test::SolidDescription what;
     what.materials[0].shear_viscosity = 3e4;

@@ -1,0 +1,33 @@
+#pragma once
+// Too few supports: the rigid motions that prescribed motion leaves free.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "system/semi_discrete.hpp"
+
+namespace gneiss {
+
+/// A connected part of a mesh that can move as a rigid body.
+struct FreePart {
+    std::size_t n_elements = 0;
+    std::array<double, 2> centre{0, 0};  ///< mean of its nodes, m
+    std::vector<std::string> motions;    ///< "translation in x", "translation in y", "rotation about (x, y)"
+};
+
+/// Parts of a mesh, by their first element, with the small rigid motions about the reference shape that no constraint
+/// holds: those that elastic forces do not resist, so that a static tangent is singular. A part is what elements with
+/// common nodes make up. Mechanisms of rigid parts that hang together by a single node are not looked for.
+///
+/// A prescribed x holds the translation in x; prescribed x at different heights, or prescribed y at different widths,
+/// hold the rotation.
+std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints);
+
+/// One line for each, "the solid: translation in x, rotation about (0, 0)", but no more than a few.
+std::string describe(const std::vector<FreePart>& parts, const Mesh& mesh);
+
+}  // namespace gneiss
