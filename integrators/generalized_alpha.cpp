@@ -279,6 +279,12 @@ double GeneralizedAlpha::kinetic_energy(const SemiDiscrete& system, const State&
     return synchronised_kinetic_energy(system, state.v, partial_);
 }
 
+double GeneralizedAlpha::matrix_bytes() const {
+    const std::size_t columns = full_values_.size();  // of the tangent itself
+    return static_cast<double>((full_values_.size() + values_.size() + columns) * sizeof(double) + free_->bytes()) +
+           (free_->n() > 0 ? solver_->expected_factor_bytes() : 0.0);
+}
+
 IntegratorMemory GeneralizedAlpha::save() const {
     return {{"acceleration", a_}, {"reactions", reactions_}, {"scales", scales_.save()}, {"step", {dt_, omega_}}};
 }

@@ -95,6 +95,14 @@ void NewtonSystem::linearise(const State& accepted, double t, std::span<const do
     ++counts_.linearisations;
 }
 
+double NewtonSystem::bytes() const {
+    const std::size_t n_matrices = 2 + (damped_ ? 1 : 0) + (form_.n_internal() > 0 ? 1 : 0);  // folded_, values_, ...
+    const std::size_t columns = full_.size();                                                 // of the tangent itself
+    return static_cast<double>((n_matrices * values_.size() + full_.size() + columns) * sizeof(double) +
+                               free_.bytes()) +
+           (free_.n() > 0 ? solver_->expected_factor_bytes() : 0.0);
+}
+
 int NewtonSystem::setup(SUNLinearSolver self, SUNMatrix) {
     auto& system = *static_cast<NewtonSystem*>(self->content);
     return system.guard_([&] { system.factorise(); });

@@ -50,7 +50,8 @@ public:
 
     const Counts& counts() const { return counts_; }
     CallbackGuard& guard() { return guard_; }
-    std::size_t factor_bytes() const { return solver_->factor_bytes(); }
+    /// Of matrices and factors, as far as the pattern tells.
+    double bytes() const;
 
 private:
     static int setup(SUNLinearSolver self, SUNMatrix);

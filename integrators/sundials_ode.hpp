@@ -36,6 +36,7 @@ public:
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const final;
     std::span<const double> reactions() const final { return reactions_; }
+    double matrix_bytes() const final { return newton_ ? newton_->bytes() : 0; }
     IntegratorMemory save() const final;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) final;
     /// Starts anew.

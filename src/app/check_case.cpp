@@ -61,24 +61,37 @@ void print_line(std::ostream& out, const char* what, const std::string& value) {
     if (!value.empty()) out << fmt::format("{:<20}{}\n", what, value);
 }
 
+void print_memory(const Case& built, std::ostream& out) {
+    const double matrices = built.integrator->matrix_bytes();
+    print_line(out, "memory",
+               fmt::format("about {:.3g} MB", (memory_estimate(built) + matrices) / 1e6) +
+                   (matrices > 0 ? fmt::format(", {:.3g} MB of it matrices and their factors", matrices / 1e6) : ""));
+}
+
 void print_cost_of_steps(const Case& built, const Measured& measured, std::ostream& out) {
     const IntegratorOptions& integrator = built.options.integrator;
     const double t_end = built.options.run.t_end, n_steps = std::ceil(t_end / measured.dt);
-    const bool adapted = integrator.dt == 0 || integrator.adaptive;
-    print_line(out, "step",
-               integrator.type == "central_difference" && adapted
-                   ? fmt::format("{:.4g} s, {} of the critical step", measured.dt, integrator.safety)
-                   : fmt::format("{:.4g} s, {}", measured.dt, adapted ? "adapted" : "fixed"));
-    print_line(out, "steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, t_end));
+    const bool from_bound = integrator.type == "central_difference" && integrator.dt == 0;
+    const bool from_error = !from_bound && (integrator.dt == 0 || integrator.adaptive);
     const Schedule schedule(built.options);
-    print_line(out, "output",
-               fmt::format("about {:.0f} rows, at most {:.0f} frames", schedule.expected_rows(measured.dt),
-                           schedule.most_frames()));
+    if (from_error) {
+        print_line(out, "step", fmt::format("{:.4g} s at first, then from the error estimate", measured.dt));
+        print_line(out, "output", fmt::format("at most {:.0f} frames", schedule.most_frames()));
+    } else {
+        print_line(out, "step",
+                   from_bound ? fmt::format("{:.4g} s, {} of the critical step", measured.dt, integrator.safety)
+                              : fmt::format("{:.4g} s, fixed", measured.dt));
+        print_line(out, "steps", fmt::format("about {:.0f} to t = {:.6g} s", n_steps, t_end));
+        print_line(out, "output",
+                   fmt::format("about {:.0f} rows, at most {:.0f} frames", schedule.expected_rows(measured.dt),
+                               schedule.most_frames()));
+    }
     print_line(out, "time per step",
                fmt::format("{:.3g} ms on {}, {:.3g} ns per element", 1e3 * measured.per_step, threads_text(),
                            1e9 * measured.per_step / static_cast<double>(built.mesh.n_elements())));
-    print_line(out, "run time", fmt::format("about {}, output apart", duration_text(n_steps * measured.per_step)));
-    print_line(out, "memory", fmt::format("about {:.3g} MB", memory_estimate(built) / 1e6));
+    if (!from_error)
+        print_line(out, "run time", fmt::format("about {}, output apart", duration_text(n_steps * measured.per_step)));
+    print_memory(built, out);
 }
 
 /// How many load steps and iterations there will be, nobody knows before.
@@ -88,10 +101,7 @@ void print_cost_of_statics(const Case& built, std::ostream& out) {
                first > 0 ? fmt::format("{:.4g} s at first, then adapted", first)
                          : "as far as the next stop at first, then adapted");
     print_line(out, "output", fmt::format("at most {:.0f} frames", Schedule(built.options).most_frames()));
-    const double matrices = built.integrator->matrix_bytes();
-    print_line(out, "memory",
-               fmt::format("about {:.3g} MB", (memory_estimate(built) + matrices) / 1e6) +
-                   (matrices > 0 ? fmt::format(", {:.3g} MB of it the matrix and its factors", matrices / 1e6) : ""));
+    print_memory(built, out);
 }
 
 }  // namespace
