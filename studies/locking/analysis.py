@@ -91,6 +91,14 @@ def pressure(frame: Frame) -> Array:
     return -0.5 * (stress[:, 0] + stress[:, 1])
 
 
+def stress_difference(frame: Frame, reference: Frame) -> float:
+    """Area-weighted L2 norm of the difference in sigma_xx of two runs on the same triangles, over that of the second."""
+    if not np.array_equal(frame.triangles, reference.triangles):
+        raise ValueError("the two runs have different triangles")
+    a, b = (f.cell_data["cauchy_stress"][:, 0] for f in (frame, reference))
+    return float(np.sqrt(np.sum(areas(frame) * (a - b) ** 2) / np.sum(areas(frame) * b**2)))
+
+
 def smoothed(frame: Frame, values: Array) -> Array:
     """Values of triangles after averaging: at each node the mean of its triangles, weighted by area; of each triangle the
     mean of its nodes."""

@@ -8,7 +8,7 @@ import numpy as np
 from studies.common.bounds import SKIPPED
 from studies.common.results import observed_order, read_table
 from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
-                                      growth_per_halving, pressure, relative_difference)
+                                      growth_per_halving, pressure, relative_difference, stress_difference)
 from studies.locking.cases import CONSTANTS, FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, M, Plan
 from studies.locking.spectrum import flutter, growth_rate
 
@@ -96,6 +96,12 @@ def checkerboards(results: Results, plan: Plan) -> dict:
     return found
 
 
+def sides(results: Results, plan: Plan) -> dict[str, float]:
+    """sigma_xx of CST against that of COMPT under the load of Figure 20, by Poisson's ratio."""
+    frames = {(case.nu, case.element): results.frame(case) for case in plan.sides_cases()}
+    return {f"{nu:g}": stress_difference(frames[nu, "cst"], frames[nu, "compt"]) for nu in SIDE_RATIOS}
+
+
 def finest(levels: dict):
     return levels[max(levels, key=int)]
 
@@ -177,6 +183,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
                 for family in FAMILIES}
     strain = u["small"]["strain"]
     grown = growth(u)
+    squeezed = sides(results, plan)
 
     metrics = {
         "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
@@ -196,6 +203,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         "checkerboard_compt": compt_board,
         "checkerboard_ratio": compt_board / cst_board,
         "checkerboard_ratio_worst_mesh": max(ratio_of.values()),
+        **{f"sides_stress_difference_nu{nu}": difference for nu, difference in squeezed.items()},
         "kinsol_relaxation_difference_max": max(pairs.values()),
         "inf_sup_min_ratio": min(inf_sup_ratio(levels) for levels in beta["compt"].values()),
         "inf_sup_smallest": min(finest(levels)["beta"] for levels in beta["compt"].values()),

@@ -8,7 +8,7 @@ import numpy as np
 
 from studies.common.fields import Frame
 from studies.locking.analysis import (CHECKERBOARD_REACH, CORNER, Results, areas, checkerboard, growth_per_halving,
-                                      pressure, relative_difference, smoothed)
+                                      pressure, relative_difference, smoothed, stress_difference)
 from studies.locking.cases import Case
 
 
@@ -53,6 +53,18 @@ class TestCheckerboard(unittest.TestCase):
         frame = square(1)
         frame.cell_data["cauchy_stress"] = np.array([[2.0, 4.0, 7.0], [-1.0, 0.0, 7.0]])
         np.testing.assert_array_equal(pressure(frame), [-3.0, 0.5])
+
+
+class TestStressDifference(unittest.TestCase):
+    def test_ScaledStress_DiffersByItsScale(self):
+        one, other = square(4), square(4)
+        one.cell_data["cauchy_stress"] = np.random.default_rng(1).normal(size=(32, 3))
+        other.cell_data["cauchy_stress"] = 0.9 * one.cell_data["cauchy_stress"]
+        self.assertAlmostEqual(stress_difference(other, one), 0.1)
+
+    def test_OtherTriangles_AreRefused(self):
+        with self.assertRaisesRegex(ValueError, "different triangles"):
+            stress_difference(square(4), square(5))
 
 
 class TestGrowth(unittest.TestCase):
