@@ -91,27 +91,20 @@ std::vector<Place> centroids(std::size_t n_sub_triangles, ElementKind cells, int
     return places;
 }
 
-/// Sides of cells, from corner to corner.
-/// @throws InputError if the boundary has one half of a composite's side and not the other
+/// As Traction wants them. A boundary may end in the middle of a composite's side.
 std::vector<std::array<std::int32_t, 2>> sides(const Mesh& cells, const std::vector<BoundaryEdge>& edges) {
     std::vector<std::array<std::int32_t, 2>> all;
-    const auto has = [&](std::int32_t a, std::int32_t b) {
-        return std::ranges::any_of(edges, [&](const BoundaryEdge& edge) { return edge.a == a && edge.b == b; });
-    };
     for (const BoundaryEdge& edge : edges) {
         if (cells.kind == ElementKind::cst) {
             all.push_back({edge.a, edge.b});
             continue;
         }
         const std::int32_t* nodes = cells.element(static_cast<std::size_t>(edge.element));
-        for (const auto& [from, mid, to] : composite_sides) {
-            const bool first = nodes[from] == edge.a && nodes[mid] == edge.b;
-            const bool second = nodes[mid] == edge.a && nodes[to] == edge.b;
-            if ((first && !has(nodes[mid], nodes[to])) || (second && !has(nodes[from], nodes[mid])))
-                throw InputError("",
-                                 "the boundary ends in the middle of a composite's side: with --refine 1 it does not");
-            if (first) all.push_back({nodes[from], nodes[to]});
-        }
+        for (const auto& [from, mid, to] : composite_sides)
+            if (nodes[from] == edge.a && nodes[mid] == edge.b)
+                all.push_back({nodes[from], nodes[to]});
+            else if (nodes[mid] == edge.a && nodes[to] == edge.b)
+                all.push_back({nodes[to], nodes[from]});
     }
     return all;
 }

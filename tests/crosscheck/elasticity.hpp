@@ -36,7 +36,8 @@ struct NodalForce {
 
 /// Force per area of sides of cells.
 struct Traction {
-    std::vector<std::array<std::int32_t, 2>> sides;  ///< corner nodes, each side once
+    /// Corner nodes. p1: sides, each once. Else: halves of sides, each by its corner and the corner at the other end.
+    std::vector<std::array<std::int32_t, 2>> sides;
     /// Pa, at a place (m) where the outward unit normal is `normal`.
     std::function<Vector(const Vector& place, const Vector& normal)> value;
 };

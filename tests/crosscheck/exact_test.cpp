@@ -132,6 +132,22 @@ value = [-1e5, -2e5]
         }
 }
 
+TEST(Compliance, PartOfABoundaryThatEndsAtAMidSideNode_IsTheWorkOfItsTraction) {
+    // displacements given all around are linear inside as well; the part is one and a half sides of composites long
+    const std::string deck = R"toml(
+mesh = { generator = "rectangle", width = 2, height = 1, cells = [4, 2], parts = [{ name = "patch", of = "top", from = [1.25, 0.5], to = [2, 1.5] }] }
+solid = { plane = "strain", thickness = 0.5 }
+load = [{ on = "patch", type = "traction", value = ["1e5*x", -2e5] }]
+boundary = [{ on = "outer", type = "displacement", value = ["0.3*x + 0.1*y", "-0.2*x"] }]
+run = { t_end = 1 }
+)toml" + rock;
+    // 0.5 m int_1.25^2 (1e5 x (0.3 x + 0.1) + 2e5 0.2 x) dx
+    const double work = 0.5 * 1e5 * (0.1 * (8 - 1.25 * 1.25 * 1.25) + 0.25 * (4 - 1.25 * 1.25));
+    for (const Element element : every_element)
+        for (const int refine : {0, 1})
+            EXPECT_NEAR(solve_deck(deck, element, refine).solution.compliance, work, round_off * 1e5);
+}
+
 TEST(QuadraticTriangles, WeightOfAColumn_IsExactAtNodesAndBetween) {
     // nu = 0 in plane stress: u_y = b/E (H y - y^2/2); of taylor_hood the constants must be above zero: p2 alone
     const std::string deck = R"toml(

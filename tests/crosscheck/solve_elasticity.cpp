@@ -214,31 +214,41 @@ private:
         dealii::FEFaceValues<2> values(fe_.mapping(), fe_.element(), quadrature,
                                        dealii::update_values | dealii::update_quadrature_points |
                                            dealii::update_normal_vectors | dealii::update_JxW_values);
-        std::set<std::array<double, 4>> loaded;  // sides by the positions of their corners, either sense
-        const auto key = [](Vector a, Vector b) {
-            if (b < a) std::swap(a, b);
+        // by the positions of corners: deal.II has numbers of its own for them
+        const auto key = [](const dealii::Point<2>& a, const dealii::Point<2>& b) {
             return std::array<double, 4>{a[0], a[1], b[0], b[1]};
         };
-        const auto corner = [&](std::int32_t node) { return problem_.nodes[static_cast<std::size_t>(node)]; };
-        for (const auto& [a, b] : load.sides) loaded.insert(key(corner(a), corner(b)));
+        const auto corner = [&](std::int32_t node) {
+            const Vector& x = problem_.nodes[static_cast<std::size_t>(node)];
+            return dealii::Point<2>(x[0], x[1]);
+        };
+        const bool linear = problem_.element == Element::p1;
+        std::set<std::array<double, 4>> loaded;
+        for (const auto& [a, b] : load.sides) {
+            loaded.insert(key(corner(a), corner(b)));
+            if (linear) loaded.insert(key(corner(b), corner(a)));
+        }
         for (const auto& cell : fe_.dof_handler().active_cell_iterators())
             for (const unsigned int f : cell->face_indices()) {
                 const auto& face = cell->face(f);
-                if (!face->at_boundary()) continue;
-                const Vector a{face->vertex(0)[0], face->vertex(0)[1]}, b{face->vertex(1)[0], face->vertex(1)[1]};
-                if (loaded.count(key(a, b)) == 0) continue;
+                const std::array ends{face->vertex(0), face->vertex(1)};
+                if (loaded.count(key(ends[0], ends[1])) + loaded.count(key(ends[1], ends[0])) == 0 ||
+                    !face->at_boundary())
+                    continue;
                 values.reinit(cell, f);
                 for (const unsigned int q : values.quadrature_point_indices()) {
                     const dealii::Point<2> place = values.quadrature_point(q);
                     const Vector normal{values.normal_vector(q)[0], values.normal_vector(q)[1]};
-                    const auto at = [&](const Vector& x) { return load.value(x, normal); };
-                    if (problem_.element != Element::p1) {
-                        add(cell, values, q, at({place[0], place[1]}));
+                    const auto at = [&](const dealii::Point<2>& x) { return load.value({x[0], x[1]}, normal); };
+                    const double s = place.distance(ends[0]) / face->diameter();
+                    const bool second = s > 0.5;
+                    if (loaded.count(key(ends[second], ends[!second])) == 0) continue;
+                    if (!linear) {
+                        add(cell, values, q, at(place));
                         continue;
                     }
-                    const double s = place.distance(face->vertex(0)) / face->diameter();
-                    const Vector at_a = at(a), at_b = at(b);
-                    add(cell, values, q, {(1 - s) * at_a[0] + s * at_b[0], (1 - s) * at_a[1] + s * at_b[1]});
+                    const Vector first = at(ends[0]), last = at(ends[1]);
+                    add(cell, values, q, {(1 - s) * first[0] + s * last[0], (1 - s) * first[1] + s * last[1]});
                 }
             }
     }
