@@ -97,9 +97,9 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
     for (auto* values : {&prescribed_, &change_, &reactions_}) values->assign(fixed.size(), 0.0);
 
-    const SparsePattern pattern{tangent->row_starts(), tangent->columns()};
-    values_.assign(pattern.n_nonzero(), 0.0);
-    free_ = std::make_unique<FreeMatrix>(pattern, fixed);
+    const MatrixPattern pattern = tangent->pattern();
+    values_.assign(tangent->n_nonzero(), 0.0);
+    free_ = std::make_unique<FreeMatrix>(SparsePattern{pattern.row_starts, pattern.columns}, fixed);
     right_.assign(free_->n(), 0.0);
     if (free_->n() == 0) return;  // nothing to solve for
     solver_ = make_linear_solver(options_.solver, tangent->symmetric());
