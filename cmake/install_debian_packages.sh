@@ -15,6 +15,7 @@ packages=(
     g++ cmake ninja-build ccache                   # compiler with OpenMP, build
     libeigen3-dev libxsimd-dev                     # linear algebra, packs
     libsuitesparse-dev libsundials-dev             # sparse linear systems; nonlinear ones and ODEs
+    libopenblas0-serial                            # dense blocks of factors: 3 times faster than with Debian's reference BLAS
     libgmsh-dev                                    # meshes
     libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev

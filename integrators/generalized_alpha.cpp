@@ -79,9 +79,9 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     reactions_.assign(system.constraints().size(), 0.0);
     std::vector<std::size_t> fixed;
     for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
-    const SparsePattern pattern{tangent->row_starts(), tangent->columns()};
-    free_ = std::make_unique<FreeMatrix>(pattern, fixed);
-    full_values_.assign(pattern.n_nonzero(), 0.0);
+    const MatrixPattern pattern = tangent->pattern();
+    free_ = std::make_unique<FreeMatrix>(SparsePattern{pattern.row_starts, pattern.columns}, fixed);
+    full_values_.assign(tangent->n_nonzero(), 0.0);
     values_.assign(free_->pattern().n_nonzero(), 0.0);
     change_.assign(free_->n(), 0.0);
     solver_ = make_linear_solver(options_.solver, tangent->symmetric());
@@ -280,8 +280,7 @@ double GeneralizedAlpha::kinetic_energy(const SemiDiscrete& system, const State&
 }
 
 double GeneralizedAlpha::matrix_bytes() const {
-    const std::size_t columns = full_values_.size();  // of the tangent itself
-    return static_cast<double>((full_values_.size() + values_.size() + columns) * sizeof(double) + free_->bytes()) +
+    return static_cast<double>((full_values_.size() + values_.size()) * sizeof(double) + free_->bytes()) +
            (free_->n() > 0 ? solver_->expected_factor_bytes() : 0.0);
 }
 

@@ -20,13 +20,18 @@ std::vector<std::size_t> constrained(const SemiDiscrete& system) {
     return dofs;
 }
 
+FreeMatrix free_part(const SemiDiscrete& system) {
+    const MatrixPattern full = tangent_of(system).pattern();
+    return FreeMatrix({full.row_starts, full.columns}, constrained(system));
+}
+
 }  // namespace
 
 NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const std::string& solver,
                            SUNContext context)
     : system_(system),
       form_(form),
-      free_({tangent_of(system).row_starts(), tangent_of(system).columns()}, constrained(system)),
+      free_(free_part(system)),
       solver_(make_linear_solver(solver, tangent_of(system).symmetric())),
       damped_(system.force_depends_on_velocity() || system.damping().mass_proportional > 0 ||
               !system.damping().blocks.empty()) {
@@ -41,7 +46,7 @@ NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, con
         diagonal_.push_back(static_cast<std::size_t>(found - begin));
     }
     const Layout layout = system.layout();
-    full_.resize(tangent_of(system).columns().size());
+    full_.resize(tangent_of(system).n_nonzero());
     values_.resize(pattern.n_nonzero());
     right_.resize(free_.n());
     at_.u.resize(layout.n_dof);
@@ -97,9 +102,7 @@ void NewtonSystem::linearise(const State& accepted, double t, std::span<const do
 
 double NewtonSystem::bytes() const {
     const std::size_t n_matrices = 2 + (damped_ ? 1 : 0) + (form_.n_internal() > 0 ? 1 : 0);  // folded_, values_, ...
-    const std::size_t columns = full_.size();                                                 // of the tangent itself
-    return static_cast<double>((n_matrices * values_.size() + full_.size() + columns) * sizeof(double) +
-                               free_.bytes()) +
+    return static_cast<double>((n_matrices * values_.size() + full_.size()) * sizeof(double) + free_.bytes()) +
            (free_.n() > 0 ? solver_->expected_factor_bytes() : 0.0);
 }
 

@@ -65,9 +65,9 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     kinsol_.reset();  // before what it refers to
     std::vector<std::size_t> fixed;
     for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
-    const SparsePattern pattern{tangent->row_starts(), tangent->columns()};
-    values_.assign(pattern.n_nonzero(), 0.0);
-    free_ = std::make_unique<FreeMatrix>(pattern, fixed);
+    const MatrixPattern pattern = tangent->pattern();
+    values_.assign(tangent->n_nonzero(), 0.0);
+    free_ = std::make_unique<FreeMatrix>(SparsePattern{pattern.row_starts, pattern.columns}, fixed);
     right_.assign(free_->n(), 0.0);
     if (free_->n() == 0) return;  // nothing to solve for
     solver_ = make_linear_solver(solver_name_, tangent->symmetric());
@@ -97,9 +97,7 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
 double QuasiStatic::matrix_bytes() const {
     if (!solver_) return 0;
     constexpr std::size_t vectors_of_kinsol = 8;
-    const std::size_t columns = values_.size();  // of the tangent itself
-    return static_cast<double>((values_.size() + columns + vectors_of_kinsol * free_->n()) * sizeof(double) +
-                               free_->bytes()) +
+    return static_cast<double>((values_.size() + vectors_of_kinsol * free_->n()) * sizeof(double) + free_->bytes()) +
            solver_->expected_factor_bytes();
 }
 

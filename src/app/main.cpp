@@ -11,6 +11,7 @@
 #include "app/run_case.hpp"
 #include "app/threads.hpp"
 #include "base/errors.hpp"
+#include "base/large_arrays.hpp"
 #include "base/suggest.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/version.hpp"
@@ -93,6 +94,7 @@ int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    return_large_arrays();
     CLI::App app("gneiss: plane problems in anisotropic solids, under any time integrator", "gneiss");
     app.set_version_flag("--version", "gneiss " + version_string());
     app.require_subcommand(0, 1);

@@ -64,10 +64,11 @@ void write_matrices(const RunArguments& arguments) {
     make_folder(out);
 
     const Tangent& tangent = *built.system->tangent();
-    std::vector<double> values(tangent.columns().size());
+    const MatrixPattern pattern = tangent.pattern();
+    std::vector<double> values(tangent.n_nonzero());
     const auto write = [&](const char* name, const Tangent::Factors& factors, bool symmetric, const char* what) {
         tangent.assemble(state, Trial::of(state), factors, values);
-        write_matrix_market(out / name, {tangent.row_starts(), tangent.columns(), values}, symmetric, what);
+        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, symmetric, what);
     };
     write("stiffness.mtx", {.stiffness = 1}, tangent.symmetric(), "stiffness, -df/du, N/m");
     write("damping.mtx", {.damping = 1, .velocity = 1}, tangent.symmetric(), "damping, C - df/dv, N s/m");

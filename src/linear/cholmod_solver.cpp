@@ -1,6 +1,7 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <new>
 
 #include "linear/linear_solver.hpp"
@@ -18,6 +19,11 @@ public:
         common_.final_ll = 1;  // L D L^T would go on past negative pivots
         common_.nmethods = 1;
         common_.method[0].ordering = CHOLMOD_GIVEN;
+        // Supernodes are merged less eagerly than by default: a tenth less memory, a tenth more time to factorise.
+        const std::array<std::size_t, 3> columns{2, 8, 32};
+        const std::array<double, 3> zeros{0.5, 0.05, 0.02};
+        std::ranges::copy(columns, common_.nrelax);
+        std::ranges::copy(zeros, common_.zrelax);
     }
     Cholmod(const Cholmod&) = delete;
     Cholmod& operator=(const Cholmod&) = delete;
@@ -36,6 +42,7 @@ public:
         Ordering ordering = fill_reducing_ordering(pattern);
         factor_ = cholmod_l_analyze_p(&a, ordering.unknowns.data(), nullptr, 0, &common_);
         if (factor_ == nullptr) throw std::bad_alloc();
+        cholmod_l_free_work(&common_);  // a factorisation needs less of it
     }
 
     void factorise(std::span<const double> values) override {

@@ -7,6 +7,7 @@ namespace gneiss {
 FreeMatrix::FreeMatrix(const SparsePattern& full, std::span<const std::size_t> fixed) {
     // of each unknown: its number among the free ones, or -1 - its number among the fixed ones
     std::vector<std::int64_t> number(full.n());
+    free_.reserve(full.n() - fixed.size());
     for (std::size_t dof = 0, k = 0; dof < full.n(); ++dof) {
         if (k < fixed.size() && fixed[k] == dof) {
             number[dof] = -1 - static_cast<std::int64_t>(k++);

@@ -11,7 +11,6 @@ namespace gneiss {
 
 class FreeMatrix {
 public:
-    /// @param full   its arrays have to outlive this
     /// @param fixed  ascending, each once
     FreeMatrix(const SparsePattern& full, std::span<const std::size_t> fixed);
 

@@ -57,63 +57,42 @@ void SolidTangent::plan_pattern() {
     std::vector<std::size_t> next(corner_starts.begin(), corner_starts.end() - 1);
     for_each_corner([&](std::size_t node, const Corner& corner) { corners[next[node]++] = corner; });
 
-    // neighbours of each node: the nodes of its elements
-    constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> list, seen_by(n_nodes, none);
-    std::size_t n_pairs = 0;
-    const auto find_neighbours = [&](std::size_t node) {
-        list.clear();
-        for (std::size_t c = corner_starts[node]; c < corner_starts[node + 1]; ++c) {
-            const ElementBlock& block = *elements_.blocks()[corners[c].block];
-            const auto n = static_cast<std::uint32_t>(block.n_nodes());
-            for (std::uint32_t k = 0; k < n; ++k) {
-                const std::int32_t other = block.nodes()[lane_of(n, corners[c].local, k)];
-                if (std::exchange(seen_by[static_cast<std::size_t>(other)], static_cast<std::int32_t>(node)) !=
-                    static_cast<std::int32_t>(node))
-                    list.push_back(other);
-            }
-        }
-    };
-    row_starts_.assign(1, 0);
-    row_starts_.reserve(2 * n_nodes + 1);
-    row_pairs_.reserve(n_nodes);
-    for (std::size_t node = 0; node < n_nodes; ++node) {
-        find_neighbours(node);
-        row_pairs_.push_back(static_cast<std::int32_t>(list.size()));
-        n_pairs += 2 * list.size();
-        for (int row = 0; row < 2; ++row)
-            row_starts_.push_back(row_starts_.back() + 2 * static_cast<std::int64_t>(list.size()));
-    }
-    if (n_pairs > std::numeric_limits<std::int32_t>::max())
-        throw std::length_error("a tangent of more than 2^32 entries");
-
-    columns_.resize(2 * n_pairs);
     for (const auto& block : elements_.blocks()) {
         const auto n = static_cast<std::size_t>(block->n_nodes());
         blocks_.emplace_back(block->n_packs() * n * n * pack_width);
     }
-    std::vector<std::int32_t> position(n_nodes);  // of a neighbour in the row at hand
-    std::ranges::fill(seen_by, none);
-    for (std::size_t node = 0; node < n_nodes; ++node) {
-        find_neighbours(node);
-        std::ranges::sort(list);
-        const auto start = static_cast<std::int32_t>(row_starts_[2 * node] / 2);
-        auto upper = columns_.begin() + row_starts_[2 * node], lower = columns_.begin() + row_starts_[2 * node + 1];
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            position[static_cast<std::size_t>(list[i])] = start + static_cast<std::int32_t>(i);
-            for (int component = 0; component < 2; ++component)
-                *upper++ = *lower++ = std::int64_t{2} * list[i] + component;
-        }
-        for (std::size_t c = corner_starts[node]; c < corner_starts[node + 1]; ++c) {
-            const auto& [b, local, row] = corners[c];
-            const ElementBlock& block = *elements_.blocks()[b];
-            const auto n = static_cast<std::uint32_t>(block.n_nodes());
-            for (std::uint32_t k = 0; k < n; ++k) {
-                const std::int32_t other = block.nodes()[lane_of(n, local, k)];
-                blocks_[b][lane_of(n * n, local, row * n + k)].value = position[static_cast<std::size_t>(other)];
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> seen_by(n_nodes, none), place_of(n_nodes);  // of the row at hand
+    neighbour_starts_.reserve(n_nodes + 1);
+    neighbour_starts_.push_back(0);
+    row_pairs_.reserve(n_nodes);
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(n_nodes); ++node) {
+        const auto for_each_other = [&](auto visit) {
+            const auto at = static_cast<std::size_t>(node);
+            for (std::size_t c = corner_starts[at]; c < corner_starts[at + 1]; ++c) {
+                const ElementBlock& block = *elements_.blocks()[corners[c].block];
+                const auto n = static_cast<std::uint32_t>(block.n_nodes());
+                for (std::uint32_t k = 0; k < n; ++k)
+                    visit(corners[c], n, k, block.nodes()[lane_of(n, corners[c].local, k)]);
             }
-        }
+        };
+        const std::size_t first = neighbours_.size();
+        for_each_other([&](const Corner&, std::uint32_t, std::uint32_t, std::int32_t other) {
+            if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node) neighbours_.push_back(other);
+        });
+        if (neighbours_.size() > std::numeric_limits<std::int32_t>::max() / 2)
+            throw std::length_error("a tangent of more than 2^32 entries");
+        std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(first), neighbours_.end());
+        for (std::size_t i = first; i < neighbours_.size(); ++i)
+            place_of[static_cast<std::size_t>(neighbours_[i])] = static_cast<std::int32_t>(first + i);
+        for_each_other([&](const Corner& corner, std::uint32_t n, std::uint32_t k, std::int32_t other) {
+            blocks_[corner.block][lane_of(n * n, corner.local, corner.node * n + k)].value =
+                place_of[static_cast<std::size_t>(other)];
+        });
+        neighbour_starts_.push_back(static_cast<std::int32_t>(neighbours_.size()));
+        row_pairs_.push_back(static_cast<std::int32_t>(neighbours_.size() - first));
     }
+    neighbours_.shrink_to_fit();
     // lanes behind the last element repeat it
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const ElementBlock& block = *elements_.blocks()[b];
@@ -122,6 +101,22 @@ void SolidTangent::plan_pattern() {
         for (std::uint32_t lane = last + 1; lane < block.n_packs() * pack_width; ++lane)
             for (std::uint32_t k = 0; k < n; ++k) blocks_[b][lane_of(n, lane, k)] = blocks_[b][lane_of(n, last, k)];
     }
+}
+
+MatrixPattern SolidTangent::pattern() const {
+    MatrixPattern pattern;
+    pattern.row_starts.reserve(2 * row_pairs_.size() + 1);
+    pattern.columns.reserve(n_nonzero());
+    pattern.row_starts.push_back(0);
+    for (std::size_t node = 0; node < row_pairs_.size(); ++node) {
+        for (int row = 0; row < 2; ++row) {
+            for (std::int32_t k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k)
+                for (int component = 0; component < 2; ++component)
+                    pattern.columns.push_back(std::int64_t{2} * neighbours_[static_cast<std::size_t>(k)] + component);
+            pattern.row_starts.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+        }
+    }
+    return pattern;
 }
 
 void SolidTangent::plan_chunks() {
@@ -148,15 +143,17 @@ void SolidTangent::plan_chunks() {
 }
 
 PairNumber SolidTangent::place(std::int32_t row_node, std::int32_t column_node) const {
-    const auto row = static_cast<std::size_t>(2 * row_node);
-    const auto first = columns_.begin() + row_starts_[row], last = columns_.begin() + row_starts_[row + 1];
-    const auto found = std::lower_bound(first, last, std::int64_t{2} * column_node);
-    if (found == last || *found != 2 * column_node)
+    const auto row = static_cast<std::size_t>(row_node);
+    const auto begin = neighbours_.begin(), first = begin + neighbour_starts_[row],
+               last = begin + neighbour_starts_[row + 1];
+    const auto found = std::lower_bound(first, last, column_node);
+    if (found == last || *found != column_node)
         throw std::logic_error("a load couples two nodes that share no element");
-    return {static_cast<std::int32_t>((found - columns_.begin()) / 2)};
+    return {neighbour_starts_[row] + static_cast<std::int32_t>(found - begin)};
 }
 
 void SolidTangent::plan_terms() {
+    diagonal_.reserve(row_pairs_.size());
     for (std::size_t node = 0; node < row_pairs_.size(); ++node)
         diagonal_.push_back(place(static_cast<std::int32_t>(node), static_cast<std::int32_t>(node)));
     std::size_t most = 0;
@@ -180,7 +177,8 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
     };
     const double c_mass = factors.mass + factors.damping * damping_.mass_proportional;
     parallel_ranges(diagonal_.size(), [&](std::size_t first, std::size_t last) {
-        std::fill(values.begin() + row_starts_[2 * first], values.begin() + row_starts_[2 * last], 0.0);
+        const auto entry = [&](std::size_t node) { return std::ptrdiff_t{4} * neighbour_starts_[node]; };
+        std::fill(values.begin() + entry(first), values.begin() + entry(last), 0.0);
         for (std::size_t node = first; node < last; ++node) {
             const double mass = c_mass * mass_[2 * node];
             add_block(node, diagonal_[node], mass, 0, 0, mass);

@@ -22,8 +22,8 @@ public:
                  std::span<const double> lumped_mass, const Damping& damping);
 
     bool symmetric() const override { return symmetric_; }
-    std::span<const std::int64_t> row_starts() const override { return row_starts_; }
-    std::span<const std::int64_t> columns() const override { return columns_; }
+    std::size_t n_nonzero() const override { return 4 * neighbours_.size(); }
+    MatrixPattern pattern() const override;
     void assemble(const State& accepted, const Trial& trial, const Factors& factors,
                   std::span<double> values) const override;
 
@@ -31,7 +31,7 @@ private:
     void plan_pattern();
     void plan_chunks();
     void plan_terms();
-    /// Where the 2 x 2 block of two nodes begins.
+    /// Where the 2 x 2 block of two nodes begins: the rows of a node stand one behind the other, a pair per neighbour.
     PairNumber place(std::int32_t row_node, std::int32_t column_node) const;
 
     const ElementForces& elements_;
@@ -40,8 +40,9 @@ private:
     const Damping& damping_;
     bool symmetric_;
 
-    std::vector<std::int64_t> row_starts_, columns_;
-    std::vector<std::int32_t> row_pairs_;          ///< pairs of entries in either row of a node
+    std::vector<std::int32_t> neighbours_;         ///< nodes with which a node shares an element, itself among them
+    std::vector<std::int32_t> neighbour_starts_;   ///< shape (nodes + 1)
+    std::vector<std::int32_t> row_pairs_;          ///< pairs of entries in either row of a node: its neighbours
     std::vector<std::vector<PairNumber>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
     std::vector<PackRange> chunks_;                ///< by colour
     std::vector<std::size_t> colour_starts_;       ///< in chunks_

@@ -1,12 +1,20 @@
 #pragma once
 // The matrices that implicit and static solvers need.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "system/state.hpp"
 
 namespace gneiss {
+
+/// Where a square matrix has entries: compressed rows with ascending columns.
+struct MatrixPattern {
+    std::vector<std::int64_t> row_starts;  ///< shape (n + 1)
+    std::vector<std::int64_t> columns;     ///< shape (n_nonzero)
+};
 
 /// c_M M + c_C C - c_K df/du - c_V df/dv, dz/du folded in, as a compressed-row matrix over all degrees of freedom.
 class Tangent {
@@ -17,10 +25,9 @@ public:
 
     virtual ~Tangent() = default;
     virtual bool symmetric() const = 0;
-    /// Pattern, fixed while the topology stands: row starts, shape (n_dof + 1), and ascending columns, shape
-    /// (n_nonzero).
-    virtual std::span<const std::int64_t> row_starts() const = 0;
-    virtual std::span<const std::int64_t> columns() const = 0;
+    virtual std::size_t n_nonzero() const = 0;
+    /// Over all degrees of freedom, fixed while the topology stands; made anew by every call.
+    virtual MatrixPattern pattern() const = 0;
     /// @param[out] values  overwritten, shape (n_nonzero)
     virtual void assemble(const State& accepted, const Trial& trial, const Factors& factors,
                           std::span<double> values) const = 0;

@@ -181,12 +181,12 @@ private:
     public:
         explicit DenseTangent(const Oscillator& system) : system_(system) {
             const auto n = system.model().mass.size();
-            for (Eigen::Index row = 0; row <= n; ++row) row_starts_.push_back(row * n);
-            for (Eigen::Index k = 0; k < n * n; ++k) columns_.push_back(k % n);
+            for (Eigen::Index row = 0; row <= n; ++row) pattern_.row_starts.push_back(row * n);
+            for (Eigen::Index k = 0; k < n * n; ++k) pattern_.columns.push_back(k % n);
         }
         bool symmetric() const override { return true; }
-        std::span<const std::int64_t> row_starts() const override { return row_starts_; }
-        std::span<const std::int64_t> columns() const override { return columns_; }
+        std::size_t n_nonzero() const override { return pattern_.columns.size(); }
+        MatrixPattern pattern() const override { return pattern_; }
         void assemble(const State& accepted, const Trial& trial, const Factors& factors,
                       std::span<double> values) const override {
             const OscillatorModel& model = system_.model();
@@ -201,7 +201,7 @@ private:
 
     private:
         const Oscillator& system_;
-        std::vector<std::int64_t> row_starts_, columns_;
+        MatrixPattern pattern_;
     };
 
     std::size_t n_internal() const { return static_cast<std::size_t>(model_.maxwell.rows()); }

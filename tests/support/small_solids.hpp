@@ -99,14 +99,15 @@ inline Solid distorted_solid(bool compt, const SolidDescription& what = {}) {
 /// An assembled tangent.
 inline Eigen::MatrixXd dense(const Tangent& tangent, const State& accepted, const Trial& trial,
                              const Tangent::Factors& factors) {
-    const auto n = static_cast<Eigen::Index>(tangent.row_starts().size() - 1);
-    std::vector<double> values(tangent.columns().size(), 1e300);
+    const MatrixPattern pattern = tangent.pattern();
+    const auto n = static_cast<Eigen::Index>(pattern.row_starts.size() - 1);
+    std::vector<double> values(tangent.n_nonzero(), 1e300);
     tangent.assemble(accepted, trial, factors, values);
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index row = 0; row < n; ++row)
-        for (auto k = tangent.row_starts()[static_cast<std::size_t>(row)];
-             k < tangent.row_starts()[static_cast<std::size_t>(row) + 1]; ++k)
-            matrix(row, tangent.columns()[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
+        for (auto k = pattern.row_starts[static_cast<std::size_t>(row)];
+             k < pattern.row_starts[static_cast<std::size_t>(row) + 1]; ++k)
+            matrix(row, pattern.columns[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
     return matrix;
 }
 

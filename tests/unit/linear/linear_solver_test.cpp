@@ -26,7 +26,8 @@ struct Choice {
 struct Sparse {
     test::Solid solid = test::distorted_solid(true);
     const Tangent& tangent = *solid.system->tangent();
-    SparsePattern pattern{tangent.row_starts(), tangent.columns()};
+    MatrixPattern arrays = tangent.pattern();
+    SparsePattern pattern{arrays.row_starts, arrays.columns};
     std::vector<double> values = std::vector<double>(pattern.n_nonzero());
 
     /// K + mass times M in relative units: positive definite if mass > 0, with the rigid modes of K if mass = 0.

@@ -16,7 +16,8 @@ using testing::ElementsAre;
 struct Grid {
     test::Solid solid;
     const Tangent& tangent = *solid.system->tangent();
-    SparsePattern pattern{tangent.row_starts(), tangent.columns()};
+    MatrixPattern arrays = tangent.pattern();
+    SparsePattern pattern{arrays.row_starts, arrays.columns};
     explicit Grid(int cells) : solid(test::make_solid(test::rectangle(false, 1, 1, {cells, cells}), {})) {}
 };
 

@@ -153,7 +153,8 @@ INSTANTIATE_TEST_SUITE_P(EveryLawElementAndSampling, SolidTangentOf, testing::Va
 TEST(SolidTangent, Pattern_RowsAreAscendingAndOfNeighboursOnly) {
     const test::Solid solid = test::distorted_solid(true);
     const Tangent& tangent = *solid.system->tangent();
-    const auto starts = tangent.row_starts(), columns = tangent.columns();
+    const auto [starts, columns] = tangent.pattern();
+    ASSERT_EQ(columns.size(), tangent.n_nonzero());
     ASSERT_EQ(starts.size(), solid.system->layout().n_dof + 1);
     EXPECT_EQ(starts.front(), 0);
     EXPECT_EQ(starts.back(), static_cast<std::int64_t>(columns.size()));
@@ -210,7 +211,7 @@ TEST(SolidTangent, OneAndTwoThreads_SameBits) {
     const test::Solid solid = test::make_solid(test::rectangle(true, 3, 3, {30, 30}), {});
     const State state = moved(solid, 0.01);
     const Tangent& tangent = *solid.system->tangent();
-    std::vector<double> one(tangent.columns().size()), two(one.size());
+    std::vector<double> one(tangent.n_nonzero()), two(one.size());
     omp_set_num_threads(1);
     tangent.assemble(state, Trial::of(state), {.mass = 1, .stiffness = 1}, one);
     omp_set_num_threads(2);
