@@ -1,5 +1,6 @@
 #include <cholmod.h>
 #include <fmt/format.h>
+#include <omp.h>
 #include <algorithm>
 #include <array>
 #include <new>
@@ -9,6 +10,19 @@
 
 namespace gneiss {
 namespace {
+
+/// While it lives OpenMP makes no threads. CHOLMOD asks for four, however many the program was given; on two busy cores
+/// they spend half the time waiting for each other.
+class OneThread {
+public:
+    OneThread() { omp_set_max_active_levels(0); }
+    OneThread(const OneThread&) = delete;
+    OneThread& operator=(const OneThread&) = delete;
+    ~OneThread() { omp_set_max_active_levels(levels_); }
+
+private:
+    int levels_ = omp_get_max_active_levels();
+};
 
 class Cholmod final : public LinearSolver {
 public:
@@ -46,6 +60,7 @@ public:
     }
 
     void factorise(std::span<const double> values) override {
+        const OneThread one_thread;
         cholmod_sparse a = matrix(values.data());
         cholmod_l_factorize(&a, factor_, &common_);
         if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -57,6 +72,7 @@ public:
     }
 
     void solve(std::span<const double> b, std::span<double> x) override {
+        const OneThread one_thread;
         cholmod_dense right{};
         right.nrow = right.nzmax = right.d = b.size();
         right.ncol = 1;
