@@ -19,7 +19,7 @@ State equilibrium(const CaseOptions& options) {
     what.loads = options.loads;
     what.boundaries = options.boundaries;
     const gneiss::test::Solid solid = gneiss::test::make_solid(make_mesh(options.mesh, options.solid.compt, {}), what);
-    return gneiss::test::equilibria(*solid.system, {options.run.t_end}, {.tolerance = 1e-10}).back();
+    return gneiss::test::equilibria(*solid.system, {options.run.t_end}, {{.tolerance = 1e-10}}).back();
 }
 
 /// Largest difference of a displacement over the largest displacement.

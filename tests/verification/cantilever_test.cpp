@@ -42,7 +42,7 @@ std::vector<double> deflections(bool compt, StressMap map, int rows) {
     const test::Solid beam = test::make_solid(
         test::rectangle(compt, length, height, {static_cast<int>(slenderness) * rows, rows}, Pattern::crossed), what);
     std::vector<double> found;
-    for (const State& state : test::equilibria(*beam.system, {0.1, 0.5, 1.0}, {.step = 0.1}))
+    for (const State& state : test::equilibria(*beam.system, {0.1, 0.5, 1.0}, {{.step = 0.1}}))
         found.push_back(test::displacement_at(beam.mesh, state, {length, 0.5 * height})[1] / length);
     return found;
 }
