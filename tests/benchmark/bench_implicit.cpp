@@ -201,7 +201,9 @@ Step load_step(const char* solver_name, const Kind& kind, int cells) {
     PeakMemory memory;
     const test::Solid solid = pulled_square(kind, cells);
     const auto start = Clock::now();
-    QuasiStatic integrator({.solver = solver_name});
+    QuasiStatic::Options options;
+    options.solver = solver_name;
+    QuasiStatic integrator(options);
     State at = solid.system->initial_state();
     integrator.start(*solid.system, at, StartReason::fresh);
     while (at.t < 1) integrator.advance(*solid.system, at, 1);

@@ -1,6 +1,6 @@
-// The numerical inf-sup test of COMPT with `mean` volume [Chapelle and Bathe, Computers and Structures 47 (1993); Bathe,
-// Finite Element Procedures, (4.207)]: does every pressure, one per composite, have a displacement that answers to it,
-// however fine the mesh?
+// The numerical inf-sup test of COMPT with `mean` volume [Chapelle and Bathe, Computers and Structures 47 (1993);
+// Bathe, Finite Element Procedures, (4.207)]: does every pressure, one per composite, have a displacement that answers
+// to it, however fine the mesh?
 //
 //     beta_h = min over q of max over v of  int q div v / (|v| |q|),   |v|^2 = int eps(v):eps(v),   |q|^2 = int q^2
 //
