@@ -7,11 +7,11 @@
 #include <iostream>
 
 #include "app/check_case.hpp"
+#include "app/large_arrays.hpp"
 #include "app/matrices.hpp"
 #include "app/run_case.hpp"
 #include "app/threads.hpp"
 #include "base/errors.hpp"
-#include "base/large_arrays.hpp"
 #include "base/suggest.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/version.hpp"

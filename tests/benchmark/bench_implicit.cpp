@@ -17,7 +17,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/large_arrays.hpp"
+#include "app/large_arrays.hpp"
 #include "benchmark/textbook_stiffness.hpp"
 #include "integrators/quasi_static.hpp"
 #include "linear/free_matrix.hpp"
