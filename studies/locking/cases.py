@@ -215,8 +215,7 @@ class Plan:
         everywhere = [case for case in self.corner_cases() if case.element == "cst" and
                       (case.family == "uniform_right" or case.n in self.p1_all_families)]
         mixed = [case for case in self.corner_cases() + self.spread_cases()
-                 if case.element == "compt" and case.family == "uniform_right" and case.n in self.mixed
-                 and (case.load == "corner" or case.n * SPREAD_LENGTH % 1 == 0)]  # its load covers whole sides
+                 if case.element == "compt" and case.family == "uniform_right" and case.n in self.mixed]
         return [(case, "p1") for case in everywhere] + [(case, element) for case in mixed
                                                         for element in ("p2", "taylor_hood")]
 
