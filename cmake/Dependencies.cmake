@@ -13,7 +13,8 @@ find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(VTK 9.1 REQUIRED COMPONENTS IOXML CommonDataModel CommonCore)
 find_package(Gmsh REQUIRED)
 find_package(SuiteSparse REQUIRED)
-find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvode ida kinsol nvecserial sunnonlinsolfixedpoint sunnonlinsolnewton)
+find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvode ida kinsol nvecserial sunlinsolpcg sunlinsolspgmr sunnonlinsolfixedpoint
+  sunnonlinsolnewton)
 # Another python3 may come first on PATH; the figures need Debian's, with numpy and matplotlib.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python with numpy and matplotlib")
 find_package(Python3 COMPONENTS Interpreter)

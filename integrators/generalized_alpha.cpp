@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "integrators/free_part.hpp"
 #include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
@@ -66,8 +67,7 @@ GeneralizedAlpha::GeneralizedAlpha(const Options& options) : options_(options), 
 }
 
 void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
-    const Tangent* tangent = system.tangent();
-    if (tangent == nullptr) throw InputError("integrator", options_.name + " needs tangents, and this system has none");
+    const Tangent& tangent = tangent_of(system, options_.name);
     const Layout layout = system.layout();
     for (State* scratch : {&next_, &stage_}) {
         scratch->u.assign(layout.n_dof, 0.0);
@@ -77,14 +77,11 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     next_.history.assign(layout.n_history, 0.0);
     for (auto* values : {&a_, &a_next_, &f_, &residual_}) values->assign(layout.n_dof, 0.0);
     reactions_.assign(system.constraints().size(), 0.0);
-    std::vector<std::size_t> fixed;
-    for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
-    const MatrixPattern pattern = tangent->pattern();
-    free_ = std::make_unique<FreeMatrix>(SparsePattern{pattern.row_starts, pattern.columns}, fixed);
-    full_values_.assign(tangent->n_nonzero(), 0.0);
+    free_ = std::make_unique<FreeMatrix>(free_part(system, tangent));
+    full_values_.assign(tangent.n_nonzero(), 0.0);
     values_.assign(free_->pattern().n_nonzero(), 0.0);
     change_.assign(free_->n(), 0.0);
-    solver_ = make_linear_solver(options_.solver, tangent->symmetric());
+    solver_ = make_linear_solver(options_.solver, tangent.symmetric());
     if (free_->n() > 0) solver_->analyse(free_->pattern());
     motion_.bind(system, omega_);
 }

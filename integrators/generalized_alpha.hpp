@@ -46,9 +46,9 @@ public:
         double rtol = 0;     ///< local error of displacement over its scale, root mean square, [0, 0.1]; 0: fixed steps
         double longest = 0;  ///< longest step with rtol, s; 0: no limit
         ProblemScales::Given scales;
-        double tolerance = 1e-9;           ///< Newton: force out of balance over the largest force, (0, 0.01]
-        int most_iterations = 20;          ///< of Newton's method in a step, >= 1
-        std::string solver = "automatic";  ///< see make_linear_solver()
+        double tolerance = 1e-9;     ///< Newton: force out of balance over the largest force, (0, 0.01]
+        int most_iterations = 20;    ///< of Newton's method in a step, >= 1
+        LinearSolverOptions solver;  ///< of the linear systems
 
         /// @throws InputError
         void validate() const;

@@ -60,6 +60,7 @@ StepReport LoadStepping::advance(const SemiDiscrete& system, State& state, doubl
     report.n_force = counts_.evaluations - before.evaluations;
     report.numbers = {static_cast<double>(counts_.iterations - before.iterations),
                       static_cast<double>(counts_.factorisations - before.factorisations),
+                      static_cast<double>(counts_.linear_iterations - before.linear_iterations),
                       static_cast<double>(report.n_force), unbalanced > 0 ? unbalanced / largest_force_ : 0.0};
     report.warning = warning_;
     return report;

@@ -27,14 +27,15 @@ public:
     };
     /// Of what has been done since the integrator was made, rejected trials included.
     struct Counts {
-        std::size_t evaluations = 0;     ///< of forces
-        std::size_t iterations = 0;      ///< of the method
-        std::size_t factorisations = 0;  ///< of tangents
+        std::size_t evaluations = 0;        ///< of forces
+        std::size_t iterations = 0;         ///< of the method
+        std::size_t factorisations = 0;     ///< of tangents
+        std::size_t linear_iterations = 0;  ///< of iterative linear solvers
     };
 
     bool is_static() const final { return true; }
     std::vector<StepColumn> step_columns() const final {
-        return {{"iterations"}, {"factorisations"}, {"force_evaluations"}, {"unbalanced"}};
+        return {{"iterations"}, {"factorisations"}, {"linear_iterations"}, {"force_evaluations"}, {"unbalanced"}};
     }
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;

@@ -3,35 +3,21 @@
 #include <algorithm>
 #include <new>
 
-#include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "integrators/free_part.hpp"
 
 namespace gneiss {
 namespace {
 
-const Tangent& tangent_of(const SemiDiscrete& system) {
-    if (const Tangent* tangent = system.tangent()) return *tangent;
-    throw InputError("integrator", "implicit schemes need tangents, and this system has none");
-}
-
-std::vector<std::size_t> constrained(const SemiDiscrete& system) {
-    std::vector<std::size_t> dofs;
-    for (const Constraint& constraint : system.constraints()) dofs.push_back(constraint.dof);
-    return dofs;
-}
-
-FreeMatrix free_part(const SemiDiscrete& system) {
-    const MatrixPattern full = tangent_of(system).pattern();
-    return FreeMatrix({full.row_starts, full.columns}, constrained(system));
-}
+const Tangent& tangent_of(const SemiDiscrete& system) { return tangent_of(system, "an implicit scheme"); }
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const std::string& solver,
+NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const LinearSolverOptions& solver,
                            SUNContext context)
     : system_(system),
       form_(form),
-      free_(free_part(system)),
+      free_(free_part(system, tangent_of(system))),
       solver_(make_linear_solver(solver, tangent_of(system).symmetric())),
       damped_(system.force_depends_on_velocity() || system.damping().mass_proportional > 0 ||
               !system.damping().blocks.empty()) {

@@ -28,9 +28,10 @@ public:
         std::size_t linearisations = 0, factorisations = 0, solves = 0;
     };
 
-    /// @param solver  see make_linear_solver()
+    /// @param solver  of the linear systems
     /// @throws InputError if the system has no tangent
-    NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const std::string& solver, SUNContext context);
+    NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, const LinearSolverOptions& solver,
+                 SUNContext context);
     NewtonSystem(const NewtonSystem&) = delete;
     NewtonSystem& operator=(const NewtonSystem&) = delete;
     ~NewtonSystem();

@@ -36,9 +36,9 @@ struct QuasiStatic::Problem {
     static int residual(N_Vector u, N_Vector r, void* problem) {
         auto& p = *static_cast<Problem*>(problem);
         return p.guarded([&] {
-            p.self.free_->put(values_of(u), p.self.next_.u);
+            p.self.tangent_->free().put(values_of(u), p.self.next_.u);
             p.self.evaluate(p.system, p.state);
-            p.self.free_->take(p.self.f_, values_of(r));
+            p.self.tangent_->free().take(p.self.f_, values_of(r));
             for (double& force : values_of(r)) force = -force;
             p.self.tell({p.self.next_.t, p.iteration, largest_of(values_of(r)) / p.self.largest_force_});
         });
@@ -46,35 +46,40 @@ struct QuasiStatic::Problem {
     static int jacobian(N_Vector u, N_Vector, SUNMatrix, void* problem, N_Vector, N_Vector) {
         auto& p = *static_cast<Problem*>(problem);
         return p.guarded([&] {
-            p.self.free_->put(values_of(u), p.self.next_.u);
-            p.system.tangent()->assemble(p.state, p.self.trial(), {.stiffness = 1}, p.self.values_);
-            p.self.free_->take_values(p.self.values_, p.self.matrix_->values());
+            p.self.tangent_->free().put(values_of(u), p.self.next_.u);
+            p.self.tangent_->linearise(p.state, p.self.trial());
             ++p.self.counts_.factorisations;
             ++p.iteration;
         });
     }
 };
 
+/// Counts what is done for the tangent while it lives, however a load step ends.
+struct QuasiStatic::Tally {
+    const StaticTangent& tangent;
+    Counts& counts;
+    std::size_t iterations = tangent.iterations(), evaluations = tangent.evaluations();
+
+    ~Tally() {
+        counts.linear_iterations += tangent.iterations() - iterations;
+        counts.evaluations += tangent.evaluations() - evaluations;
+    }
+};
+
 QuasiStatic::QuasiStatic(const Options& options)
-    : LoadStepping(options, usual_iterations), solver_name_(options.solver), kinsol_(nullptr, free_kinsol) {}
+    : LoadStepping(options, usual_iterations),
+      solver_options_(options.solver),
+      matrix_free_(options.matrix_free),
+      kinsol_(nullptr, free_kinsol) {}
 QuasiStatic::~QuasiStatic() = default;
 
 void QuasiStatic::allocate(const SemiDiscrete& system) {
-    const Tangent* tangent = system.tangent();
-    if (tangent == nullptr) throw InputError("integrator", "quasi_static needs tangents, and this system has none");
     kinsol_.reset();  // before what it refers to
-    std::vector<std::size_t> fixed;
-    for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
-    const MatrixPattern pattern = tangent->pattern();
-    values_.assign(tangent->n_nonzero(), 0.0);
-    free_ = std::make_unique<FreeMatrix>(SparsePattern{pattern.row_starts, pattern.columns}, fixed);
-    right_.assign(free_->n(), 0.0);
-    if (free_->n() == 0) return;  // nothing to solve for
-    solver_ = make_linear_solver(solver_name_, tangent->symmetric());
-    solver_->analyse(free_->pattern());
-    matrix_ = std::make_unique<SundialsMatrix>(free_->pattern(), values_, context_);  // the free ones in front
-    linear_ = std::make_unique<SundialsSolver>(*solver_, *matrix_, context_);
-    for (OwnedVector* vector : {&unknowns_, &unknown_scale_, &force_scale_}) *vector = new_vector(free_->n(), context_);
+    tangent_ = (matrix_free_ ? make_matrix_free_tangent : make_assembled_tangent)(system, solver_options_, context_);
+    const std::size_t n = tangent_->n();
+    right_.assign(n, 0.0);
+    if (n == 0) return;  // nothing to solve for
+    for (OwnedVector* vector : {&unknowns_, &unknown_scale_, &force_scale_}) *vector = new_vector(n, context_);
 
     kinsol_.reset(KINCreate(context_));
     void* kinsol = kinsol_.get();
@@ -83,51 +88,51 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     };
     check(KINInit(kinsol, Problem::residual, unknowns_.get()), "KINInit");
     KINSetErrFile(kinsol, nullptr);  // what went wrong is told by return values
-    check(KINSetLinearSolver(kinsol, linear_->get(), matrix_->get()), "KINSetLinearSolver");
+    check(KINSetLinearSolver(kinsol, tangent_->linear_solver(), tangent_->matrix()), "KINSetLinearSolver");
     check(KINSetJacFn(kinsol, Problem::jacobian), "KINSetJacFn");
     check(KINSetMaxSetupCalls(kinsol, 1), "KINSetMaxSetupCalls");  // a new tangent in every iteration
     check(KINSetNumMaxIters(kinsol, options().most_iterations), "KINSetNumMaxIters");
     check(KINSetFuncNormTol(kinsol, options().tolerance), "KINSetFuncNormTol");
     check(KINSetScaledStepTol(kinsol, 1e-14), "KINSetScaledStepTol");
     // no limit to a step: a displacement of a million edges is no solution anyway
-    check(KINSetMaxNewtonStep(kinsol, 1e6 * std::sqrt(static_cast<double>(free_->n()))), "KINSetMaxNewtonStep");
+    check(KINSetMaxNewtonStep(kinsol, 1e6 * std::sqrt(static_cast<double>(n))), "KINSetMaxNewtonStep");
     N_VConst(1 / system.smallest_length(), unknown_scale_.get());
 }
 
 double QuasiStatic::matrix_bytes() const {
-    if (!solver_) return 0;
+    if (!tangent_) return 0;
     constexpr std::size_t vectors_of_kinsol = 8;
-    return static_cast<double>((values_.size() + vectors_of_kinsol * free_->n()) * sizeof(double) + free_->bytes()) +
-           solver_->expected_factor_bytes();
+    return static_cast<double>(vectors_of_kinsol * tangent_->n() * sizeof(double)) + tangent_->bytes();
 }
 
 void QuasiStatic::predict(const SemiDiscrete& system, const State& state) {
     const Trial old{next_.t, next_.last_event, state.u, next_.v, {}};
     system.force(state, old, f_);
     ++counts_.evaluations;
-    system.tangent()->assemble(state, old, {.stiffness = 1}, values_);
-    free_->take(f_, right_);
-    free_->subtract_fixed(values_, change_, right_);
-    free_->take_values(values_, matrix_->values());
+    tangent_->linearise(state, old);
+    tangent_->free().take(f_, right_);
+    tangent_->subtract_fixed(change_, right_);
     ++counts_.factorisations;
+    tangent_->forget();  // pivots of earlier load steps, which a resumed run has not
     try {
-        solver_->factorise(matrix_->values());
+        tangent_->factorise();
+        tangent_->solve(right_, right_);
     } catch (const SingularMatrix& error) {
         throw Exhausted(fmt::format("in the last equilibrium {}", error.what()));  // whatever the step
     }
-    solver_->solve(right_, right_);
     const std::span<double> u = values_of(unknowns_.get());
-    free_->take(state.u, u);
+    tangent_->free().take(state.u, u);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += right_[i];
 }
 
 bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     const auto constraints = system.constraints();
     for (std::size_t k = 0; k < constraints.size(); ++k) next_.u[constraints[k].dof] += change_[k];
-    if (free_->n() == 0) return true;
+    if (tangent_->n() == 0) return true;
+    const Tally tally{*tangent_, counts_};
     predict(system, state);
     largest_force_ = largest_of(f_);  // supports, and loads out of balance before the step
-    free_->put(values_of(unknowns_.get()), next_.u);
+    tangent_->free().put(values_of(unknowns_.get()), next_.u);
     evaluate(system, state);
     largest_force_ = std::max(largest_force_, largest_of(f_));
     if (largest_force_ == 0) return true;
@@ -138,19 +143,19 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     const int flag = KINSol(kinsol_.get(), unknowns_.get(), KIN_LINESEARCH, unknown_scale_.get(), force_scale_.get());
     KINSetUserData(kinsol_.get(), nullptr);
     problem.guarded.rethrow();
-    linear_->rethrow_unrecoverable();
+    tangent_->guard().rethrow();
     long iterations = 0;
     KINGetNumNonlinSolvIters(kinsol_.get(), &iterations);
     counts_.iterations += static_cast<std::size_t>(std::max(iterations, 0L));
-    free_->put(values_of(unknowns_.get()), next_.u);
+    tangent_->free().put(values_of(unknowns_.get()), next_.u);
     const auto found = [&] {
         const double t = iterations > 0 ? next_.t : state.t;
-        if (solver_->indefinite() && !indefinite_)
+        if (tangent_->indefinite() && !indefinite_)
             warning_ = fmt::format(
                 "the tangent is indefinite at load time t = {:.9g} s: a limit or bifurcation point lies before it, and "
                 "beside the equilibria found from there on there are others",
                 t);
-        indefinite_ = solver_->indefinite();
+        indefinite_ = tangent_->indefinite();
         return iterations <= few_iterations;
     };
     if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return found();
@@ -159,18 +164,18 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     const bool linear_failed = flag == KIN_LSETUP_FAIL || flag == KIN_LSOLVE_FAIL;
     const bool force_failed =
         flag == KIN_SYSFUNC_FAIL || flag == KIN_FIRST_SYSFUNC_ERR || flag == KIN_REPTD_SYSFUNC_ERR;
-    if (linear_failed && !linear_->failure().empty()) throw RecoverableError(linear_->failure());
+    if (linear_failed && !tangent_->guard().failure().empty()) throw RecoverableError(tangent_->guard().failure());
     if (force_failed && !problem.guarded.failure().empty()) throw RecoverableError(problem.guarded.failure());
     // Where no step makes the forces smaller they have come to round-off: the end as well, if near the tolerance.
     evaluate(system, state);
-    free_->take(f_, right_);
+    tangent_->free().take(f_, right_);
     const double left = largest_of(right_) / largest_force_;
     constexpr double near = 10;
     if ((flag == KIN_STEP_LT_STPTOL || flag == KIN_LINESEARCH_NONCONV) && left <= near * options().tolerance)
         return found();
     throw RecoverableError(
         fmt::format("{} after {} iterations, {:.3g} of the forces out of balance{}", name.get(), iterations, left,
-                    solver_->indefinite() ? ", the tangent indefinite: near a limit or bifurcation point" : ""));
+                    tangent_->indefinite() ? ", the tangent indefinite: near a limit or bifurcation point" : ""));
 }
 
 }  // namespace gneiss

@@ -10,15 +10,16 @@
 #include <vector>
 
 #include "integrators/load_stepping.hpp"
+#include "integrators/static_tangent.hpp"
 #include "integrators/sundials_objects.hpp"
-#include "linear/free_matrix.hpp"
 
 namespace gneiss {
 
 class QuasiStatic final : public LoadStepping {
 public:
     struct Options : LoadStepping::Options {
-        std::string solver = "automatic";  ///< see make_linear_solver()
+        LinearSolverOptions solver;  ///< of the linear systems
+        bool matrix_free = false;    ///< pcg and gmres: products with the tangent by differences of forces
     };
 
     explicit QuasiStatic(const Options& options);
@@ -29,6 +30,7 @@ public:
 
 private:
     struct Problem;  ///< what KINSOL is told of a load step
+    struct Tally;
 
     /// @throws InputError if the system has no tangent
     void allocate(const SemiDiscrete& system) override;
@@ -36,15 +38,13 @@ private:
     /// The unknowns from the tangent at the last state.
     void predict(const SemiDiscrete& system, const State& state);
 
-    std::string solver_name_;
+    LinearSolverOptions solver_options_;
+    bool matrix_free_;
     bool indefinite_ = false;  ///< the tangent of the last equilibrium
-    std::vector<double> values_, right_;
+    std::vector<double> right_;
 
-    std::unique_ptr<FreeMatrix> free_;
-    std::unique_ptr<LinearSolver> solver_;
     sundials::Context context_;
-    std::unique_ptr<SundialsMatrix> matrix_;
-    std::unique_ptr<SundialsSolver> linear_;
+    std::unique_ptr<StaticTangent> tangent_;
     OwnedVector unknowns_, unknown_scale_, force_scale_;
     std::unique_ptr<void, void (*)(void*)> kinsol_;
 };

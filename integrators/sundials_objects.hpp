@@ -70,47 +70,4 @@ private:
     std::exception_ptr unrecoverable_;
 };
 
-/// A matrix in compressed rows as a SUNMatrix: SUNDIALS hands it on, and multiplies with it.
-class SundialsMatrix {
-public:
-    /// @param pattern  its arrays have to outlive this
-    /// @param values   begin with those of the pattern; have to outlive this
-    SundialsMatrix(const SparsePattern& pattern, std::span<double> values, SUNContext context);
-    SundialsMatrix(const SundialsMatrix&) = delete;
-    SundialsMatrix& operator=(const SundialsMatrix&) = delete;
-    ~SundialsMatrix() { SUNMatFreeEmpty(matrix_); }
-
-    SUNMatrix get() const { return matrix_; }
-    std::span<double> values() const { return values_; }
-
-private:
-    SparsePattern pattern_;
-    std::span<double> values_;
-    SUNMatrix matrix_;
-};
-
-/// A LinearSolver as a SUNLinearSolver: set up with a SundialsMatrix's values.
-class SundialsSolver {
-public:
-    SundialsSolver(LinearSolver& solver, SundialsMatrix& matrix, SUNContext context);
-    SundialsSolver(const SundialsSolver&) = delete;
-    SundialsSolver& operator=(const SundialsSolver&) = delete;
-    ~SundialsSolver() { SUNLinSolFreeEmpty(linear_solver_); }
-
-    SUNLinearSolver get() const { return linear_solver_; }
-    /// Why the last factorisation or solve failed; empty if it did not.
-    const std::string& failure() const { return guard_.failure(); }
-    /// Throws what no other matrix would cure, once SUNDIALS has returned.
-    void rethrow_unrecoverable() { guard_.rethrow(); }
-
-private:
-    static int setup(SUNLinearSolver self, SUNMatrix);
-    static int solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype);
-
-    LinearSolver& solver_;
-    SundialsMatrix& matrix_;
-    SUNLinearSolver linear_solver_;
-    CallbackGuard guard_;
-};
-
 }  // namespace gneiss

@@ -19,10 +19,10 @@ namespace gneiss {
 class SundialsOde : public Integrator {
 public:
     struct Options {
-        double rtol = 1e-6;                ///< local error over the scale of its kind, root mean square, (0, 0.1]
-        ProblemScales::Given scales;       ///< magnitudes to measure errors against; 0: from the problem
-        double longest = 0;                ///< longest step, s; 0: no limit
-        std::string solver = "automatic";  ///< see make_linear_solver()
+        double rtol = 1e-6;           ///< local error over the scale of its kind, root mean square, (0, 0.1]
+        ProblemScales::Given scales;  ///< magnitudes to measure errors against; 0: from the problem
+        double longest = 0;           ///< longest step, s; 0: no limit
+        LinearSolverOptions solver;   ///< of the linear systems
 
         /// Adds what is wrong, under "integrator.".
         void check(std::vector<Problem>& problems) const;

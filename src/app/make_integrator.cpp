@@ -17,13 +17,21 @@ ProblemScales::Given scales(const IntegratorOptions& o) {
     return {o.displacement_scale, o.velocity_scale, o.stress_scale};
 }
 
+LinearSolverOptions linear_solver(const IntegratorOptions& o) {
+    LinearSolverOptions options(o.solver);
+    options.preconditioner = o.preconditioner;
+    options.tolerance = o.linear_tolerance;
+    options.most_iterations = static_cast<std::size_t>(o.most_linear_iterations);
+    return options;
+}
+
 template <class Options>
 Options to_a_tolerance(const IntegratorOptions& o) {
     Options options;
     options.rtol = o.rtol;
     options.scales = scales(o);
     options.longest = o.longest;
-    options.solver = o.solver;
+    options.solver = linear_solver(o);
     return options;
 }
 
@@ -44,7 +52,7 @@ std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
     options.scales = scales(o);
     options.tolerance = o.tolerance;
     if (o.most_iterations > 0) options.most_iterations = o.most_iterations;
-    options.solver = o.solver;
+    options.solver = linear_solver(o);
     return std::make_unique<GeneralizedAlpha>(options);
 }
 
@@ -75,7 +83,8 @@ std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
     if (o.type == "central_difference")
         return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
-    if (o.type == "quasi_static") return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), o.solver});
+    if (o.type == "quasi_static")
+        return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), linear_solver(o), o.matrix_free});
     if (o.type == "dynamic_relaxation") return std::make_unique<DynamicRelaxation>(load_steps(o));
     if (o.type == "generalized_alpha" || o.type == "newmark" || o.type == "hht_alpha") return make_alpha(o);
     if (o.type == "cvode") return make_cvode(o);

@@ -1,6 +1,10 @@
 #include "linear/linear_solver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
+#include <vector>
 
 #include "base/parallel.hpp"
 
@@ -64,20 +68,35 @@ private:
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, bool symmetric) {
-    if (name == "automatic") {
-        if (symmetric) return std::make_unique<SymmetricSolver>();
-        return make_umfpack();
-    }
+void LinearSolverOptions::validate() const {
+    std::vector<Problem> problems;
+    const auto need = [&](bool fine, const char* key, const std::string& message) {
+        if (!fine) problems.push_back({std::string("integrator.") + key, message});
+    };
+    const std::array known{"automatic", "cholmod", "klu", "umfpack", "pcg", "gmres"};
+    need(std::ranges::find(known, solver) != known.end(), "solver",
+         fmt::format("given `{}`, must be one of {}", solver, fmt::join(known, ", ")));
+    need(preconditioner == "incomplete" || preconditioner == "diagonal", "preconditioner",
+         fmt::format("given `{}`, must be one of incomplete, diagonal", preconditioner));
+    need(tolerance > 0 && tolerance <= 0.1, "linear_tolerance",
+         fmt::format("given {}, must be in (0, 0.1]", tolerance));
+    need(most_iterations >= 1, "most_linear_iterations", fmt::format("given {}, must be >= 1", most_iterations));
+    if (!problems.empty()) throw InputError(problems);
+}
+
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, bool symmetric) {
+    options.validate();
+    const std::string& name = options.solver;
+    if (!symmetric && (name == "cholmod" || name == "pcg"))
+        throw InputError("integrator.solver",
+                         fmt::format("given `{}`, but the tangent is not symmetric: take {}", name,
+                                     name == "pcg" ? "gmres or a direct solver" : "umfpack, klu or automatic"));
+    if (name == "automatic" && symmetric) return std::make_unique<SymmetricSolver>();
+    if (name == "cholmod") return make_cholmod();
     if (name == "klu") return make_klu();
-    if (name == "umfpack") return make_umfpack();
-    if (name != "cholmod")
-        throw InputError("integrator.solver",
-                         fmt::format("given `{}`, must be one of automatic, cholmod, klu, umfpack", name));
-    if (!symmetric)
-        throw InputError("integrator.solver",
-                         "given `cholmod`, but the tangent is not symmetric: take umfpack, klu or automatic");
-    return make_cholmod();
+    if (name == "pcg") return make_pcg(options);
+    if (name == "gmres") return make_gmres(options);
+    return make_umfpack();
 }
 
 }  // namespace gneiss

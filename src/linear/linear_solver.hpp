@@ -1,11 +1,12 @@
 #pragma once
-// Direct solvers of sparse linear systems behind one interface: analyse a pattern once, factorise and solve often.
+// Solvers of sparse linear systems behind one interface: analyse a pattern once, factorise and solve often.
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -49,11 +50,12 @@ public:
 
     /// Orders the unknowns for all matrices of this pattern. The pattern's arrays have to stay until the next call.
     virtual void analyse(const SparsePattern& pattern) = 0;
-    /// @param values  entries in the order of the pattern
+    /// @param values  entries in the order of the pattern; iterative solvers need them until the next call
     /// @throws SingularMatrix, NotPositiveDefinite
     virtual void factorise(std::span<const double> values) = 0;
     /// Solves A x = b with the last factorisation.
     /// @param[out] x  shape (n); may be b itself
+    /// @throws RecoverableError  iterative solvers, where they do not get to their tolerance
     virtual void solve(std::span<const double> b, std::span<double> x) = 0;
     /// What later factorisations take over from earlier ones, pivots say, is forgotten.
     virtual void forget() {}
@@ -61,6 +63,8 @@ public:
     virtual std::size_t factor_bytes() const = 0;
     /// The same of a factorisation to come, from the pattern analysed; 0: cannot be told.
     virtual double expected_factor_bytes() const { return 0; }
+    /// Of an iterative solver, in all solves so far.
+    virtual std::size_t iterations() const { return 0; }
     /// Whether the last matrix factorised is known to have a negative eigenvalue.
     virtual bool indefinite() const { return false; }
 };
@@ -74,9 +78,30 @@ std::unique_ptr<LinearSolver> make_klu();
 /// L U with partial pivoting by fronts and BLAS, by UMFPACK.
 std::unique_ptr<LinearSolver> make_umfpack();
 
-/// By name: "cholmod", "klu", "umfpack"; or "automatic": CHOLMOD for symmetric matrices, UMFPACK for those that turn
-/// out not to be positive definite, and for all others.
-/// @throws InputError for another name, and for "cholmod" if the matrices are not symmetric
-std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, bool symmetric);
+/// What is asked of a solver; a name is enough.
+struct LinearSolverOptions {
+    std::string solver = "automatic";           ///< see make_linear_solver()
+    std::string preconditioner = "incomplete";  ///< of pcg and gmres: "incomplete" (factorisation) or "diagonal"
+    double tolerance = 1e-8;                    ///< of pcg and gmres: residual over right side, (0, 0.1]
+    std::size_t most_iterations = 10000;        ///< of pcg and gmres in one solve, >= 1
+
+    LinearSolverOptions() = default;
+    LinearSolverOptions(std::string name) : solver(std::move(name)) {}  // NOLINT
+    LinearSolverOptions(const char* name) : solver(name) {}             // NOLINT
+
+    bool iterative() const { return solver == "pcg" || solver == "gmres"; }
+    /// @throws InputError
+    void validate() const;
+};
+
+/// Conjugate gradients, by SUNDIALS, preconditioned with the diagonal or with L L^T of the matrix's own sparsity.
+std::unique_ptr<LinearSolver> make_pcg(const LinearSolverOptions& options);
+/// GMRES, by SUNDIALS, preconditioned with the diagonal or with an incomplete L U.
+std::unique_ptr<LinearSolver> make_gmres(const LinearSolverOptions& options);
+
+/// By name: "cholmod", "klu", "umfpack", direct; "pcg" and "gmres", iterative; or "automatic": CHOLMOD for symmetric
+/// matrices, UMFPACK for those that turn out not to be positive definite, and for all others.
+/// @throws InputError for other options, and for "cholmod" and "pcg" if the matrices are not symmetric
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, bool symmetric);
 
 }  // namespace gneiss

@@ -1,6 +1,7 @@
 #include "linear/ordering.hpp"
 
 #include <cholmod.h>
+#include <malloc.h>
 #include <algorithm>
 #include <memory>
 #include <new>
@@ -62,7 +63,9 @@ bool is_structurally_symmetric(const SparsePattern& pattern) {
     return true;
 }
 
-Ordering fill_reducing_ordering(const SparsePattern& pattern) {
+namespace {
+
+Ordering ordering_of_nodes(const SparsePattern& pattern) {
     NodeGraph graph(pattern);
     cholmod_common common;
     cholmod_l_start(&common);
@@ -94,6 +97,17 @@ Ordering fill_reducing_ordering(const SparsePattern& pattern) {
             ordering.unknowns.push_back(unknown);
     }
     cholmod_l_free_factor(&factor, &common);
+    return ordering;
+}
+
+}  // namespace
+
+Ordering fill_reducing_ordering(const SparsePattern& pattern) {
+    Ordering ordering = ordering_of_nodes(pattern);
+#ifdef __GLIBC__
+    malloc_trim(
+        0);  // METIS' small arrays go back to the system, which the C library would not do: 50 bytes per unknown
+#endif
     return ordering;
 }
 

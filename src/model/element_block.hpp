@@ -98,7 +98,9 @@ public:
     virtual bool symmetric_tangent() const = 0;
     /// Where the 2 x 2 blocks of element matrices stand in a matrix of compressed rows, which holds pairs of entries.
     struct MatrixPlaces {
-        const PairNumber* blocks;  ///< upper pair of a pair of nodes, shape (packs, n_nodes, n_nodes, pack_width)
+        /// Upper pair of a pair of nodes, shape (packs, n_nodes, n_nodes, pack_width); null: the diagonal alone, a pair
+        /// of entries per node.
+        const PairNumber* blocks;
         const std::int32_t*
             row_pairs;  ///< from the upper pair to the lower one, of a row node, shape (nodes of the mesh)
     };

@@ -123,7 +123,12 @@ struct IntegratorOptions {
     // quasi_static, dynamic_relaxation: LoadStepping::Options
     double tolerance = 1e-9, step = 0, longest = 0, shortest = 1e-6;
     int most_iterations = 0;
-    std::string solver = "automatic";  ///< quasi_static
+
+    // those that solve linear systems: LinearSolverOptions
+    std::string solver = "automatic", preconditioner = "incomplete";
+    double linear_tolerance = 1e-8;
+    int most_linear_iterations = 10000;
+    bool matrix_free = false;  ///< quasi_static
 };
 
 struct RunOptions {

@@ -30,12 +30,23 @@ SolidTangent::SolidTangent(const ElementForces& elements, std::span<const std::u
         couplings_.push_back(term->couplings());
         symmetric_ = symmetric_ && couplings_.back().empty();
     }
-    plan_pattern();
+    std::size_t most = 0;
+    for (const auto& pairs : couplings_) most = std::max(most, pairs.size());
+    term_stiffness_.resize(most);
     plan_chunks();
-    plan_terms();
 }
 
-void SolidTangent::plan_pattern() {
+const SolidTangent::Places& SolidTangent::places() const {
+    if (!places_) {
+        auto places = std::make_unique<Places>();
+        plan_pattern(*places);
+        plan_terms(*places);
+        places_ = std::move(places);
+    }
+    return *places_;
+}
+
+void SolidTangent::plan_pattern(Places& places) const {
     const std::size_t n_nodes = mass_.size() / 2;
     // the elements at each node
     struct Corner {
@@ -59,13 +70,13 @@ void SolidTangent::plan_pattern() {
 
     for (const auto& block : elements_.blocks()) {
         const auto n = static_cast<std::size_t>(block->n_nodes());
-        blocks_.emplace_back(block->n_packs() * n * n * pack_width);
+        places.blocks.emplace_back(block->n_packs() * n * n * pack_width);
     }
     constexpr std::int32_t none = -1;
     std::vector<std::int32_t> seen_by(n_nodes, none), place_of(n_nodes);  // of the row at hand
-    neighbour_starts_.reserve(n_nodes + 1);
-    neighbour_starts_.push_back(0);
-    row_pairs_.reserve(n_nodes);
+    places.neighbour_starts.reserve(n_nodes + 1);
+    places.neighbour_starts.push_back(0);
+    places.row_pairs.reserve(n_nodes);
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(n_nodes); ++node) {
         const auto for_each_other = [&](auto visit) {
             const auto at = static_cast<std::size_t>(node);
@@ -76,43 +87,46 @@ void SolidTangent::plan_pattern() {
                     visit(corners[c], n, k, block.nodes()[lane_of(n, corners[c].local, k)]);
             }
         };
-        const std::size_t first = neighbours_.size();
+        const std::size_t first = places.neighbours.size();
         for_each_other([&](const Corner&, std::uint32_t, std::uint32_t, std::int32_t other) {
-            if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node) neighbours_.push_back(other);
+            if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node)
+                places.neighbours.push_back(other);
         });
-        if (neighbours_.size() > std::numeric_limits<std::int32_t>::max() / 2)
+        if (places.neighbours.size() > std::numeric_limits<std::int32_t>::max() / 2)
             throw std::length_error("a tangent of more than 2^32 entries");
-        std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(first), neighbours_.end());
-        for (std::size_t i = first; i < neighbours_.size(); ++i)
-            place_of[static_cast<std::size_t>(neighbours_[i])] = static_cast<std::int32_t>(first + i);
+        std::sort(places.neighbours.begin() + static_cast<std::ptrdiff_t>(first), places.neighbours.end());
+        for (std::size_t i = first; i < places.neighbours.size(); ++i)
+            place_of[static_cast<std::size_t>(places.neighbours[i])] = static_cast<std::int32_t>(first + i);
         for_each_other([&](const Corner& corner, std::uint32_t n, std::uint32_t k, std::int32_t other) {
-            blocks_[corner.block][lane_of(n * n, corner.local, corner.node * n + k)].value =
+            places.blocks[corner.block][lane_of(n * n, corner.local, corner.node * n + k)].value =
                 place_of[static_cast<std::size_t>(other)];
         });
-        neighbour_starts_.push_back(static_cast<std::int32_t>(neighbours_.size()));
-        row_pairs_.push_back(static_cast<std::int32_t>(neighbours_.size() - first));
+        places.neighbour_starts.push_back(static_cast<std::int32_t>(places.neighbours.size()));
+        places.row_pairs.push_back(static_cast<std::int32_t>(places.neighbours.size() - first));
     }
-    neighbours_.shrink_to_fit();
+    places.neighbours.shrink_to_fit();
     // lanes behind the last element repeat it
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (std::size_t b = 0; b < places.blocks.size(); ++b) {
         const ElementBlock& block = *elements_.blocks()[b];
         const auto n = static_cast<std::uint32_t>(block.n_nodes() * block.n_nodes());
         const auto last = static_cast<std::uint32_t>(block.n_elements() - 1);
         for (std::uint32_t lane = last + 1; lane < block.n_packs() * pack_width; ++lane)
-            for (std::uint32_t k = 0; k < n; ++k) blocks_[b][lane_of(n, lane, k)] = blocks_[b][lane_of(n, last, k)];
+            for (std::uint32_t k = 0; k < n; ++k)
+                places.blocks[b][lane_of(n, lane, k)] = places.blocks[b][lane_of(n, last, k)];
     }
 }
 
 MatrixPattern SolidTangent::pattern() const {
+    const Places& at = places();
     MatrixPattern pattern;
-    pattern.row_starts.reserve(2 * row_pairs_.size() + 1);
+    pattern.row_starts.reserve(2 * at.row_pairs.size() + 1);
     pattern.columns.reserve(n_nonzero());
     pattern.row_starts.push_back(0);
-    for (std::size_t node = 0; node < row_pairs_.size(); ++node) {
+    for (std::size_t node = 0; node < at.row_pairs.size(); ++node) {
         for (int row = 0; row < 2; ++row) {
-            for (std::int32_t k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k)
+            for (std::int32_t k = at.neighbour_starts[node]; k < at.neighbour_starts[node + 1]; ++k)
                 for (int component = 0; component < 2; ++component)
-                    pattern.columns.push_back(std::int64_t{2} * neighbours_[static_cast<std::size_t>(k)] + component);
+                    pattern.columns.push_back(std::int64_t{2} * at.neighbours[static_cast<std::size_t>(k)] + component);
             pattern.row_starts.push_back(static_cast<std::int64_t>(pattern.columns.size()));
         }
     }
@@ -122,7 +136,7 @@ MatrixPattern SolidTangent::pattern() const {
 void SolidTangent::plan_chunks() {
     const std::vector<PackRange> chunks = pack_ranges(elements_.blocks(), chunk_size);
     // the lowest colour that no neighbour has
-    std::vector<std::uint64_t> colours_at(row_pairs_.size(), 0);  // bits, of each node
+    std::vector<std::uint64_t> colours_at(mass_.size() / 2, 0);  // bits, of each node
     std::vector<int> colour_of;
     for (const PackRange& chunk : chunks) {
         const auto nodes = elements_.blocks()[chunk.block]->nodes_of_packs(chunk.first, chunk.last);
@@ -142,55 +156,30 @@ void SolidTangent::plan_chunks() {
     }
 }
 
-PairNumber SolidTangent::place(std::int32_t row_node, std::int32_t column_node) const {
+PairNumber SolidTangent::Places::of(std::int32_t row_node, std::int32_t column_node) const {
     const auto row = static_cast<std::size_t>(row_node);
-    const auto begin = neighbours_.begin(), first = begin + neighbour_starts_[row],
-               last = begin + neighbour_starts_[row + 1];
+    const auto begin = neighbours.begin(), first = begin + neighbour_starts[row],
+               last = begin + neighbour_starts[row + 1];
     const auto found = std::lower_bound(first, last, column_node);
     if (found == last || *found != column_node)
         throw std::logic_error("a load couples two nodes that share no element");
-    return {neighbour_starts_[row] + static_cast<std::int32_t>(found - begin)};
+    return {neighbour_starts[row] + static_cast<std::int32_t>(found - begin)};
 }
 
-void SolidTangent::plan_terms() {
-    diagonal_.reserve(row_pairs_.size());
-    for (std::size_t node = 0; node < row_pairs_.size(); ++node)
-        diagonal_.push_back(place(static_cast<std::int32_t>(node), static_cast<std::int32_t>(node)));
-    std::size_t most = 0;
+void SolidTangent::plan_terms(Places& places) const {
+    places.diagonal.reserve(places.row_pairs.size());
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(places.row_pairs.size()); ++node)
+        places.diagonal.push_back(places.of(node, node));
     for (const auto& pairs : couplings_) {
-        std::vector<PairNumber>& places = term_places_.emplace_back();
-        for (const auto& [a, b] : pairs) places.push_back(place(a, b));
-        most = std::max(most, pairs.size());
+        std::vector<PairNumber>& term = places.terms.emplace_back();
+        for (const auto& [a, b] : pairs) term.push_back(places.of(a, b));
     }
-    term_stiffness_.resize(most);
 }
 
-void SolidTangent::assemble(const State& accepted, const Trial& trial, const Factors& factors,
-                            std::span<double> values) const {
-    const auto add_block = [&](std::size_t node, PairNumber at, double xx, double xy, double yx, double yy) {
-        double* upper = pair_at(values.data(), at);
-        double* lower = upper + 2 * row_pairs_[node];
-        upper[0] += xx;
-        upper[1] += xy;
-        lower[0] += yx;
-        lower[1] += yy;
-    };
-    const double c_mass = factors.mass + factors.damping * damping_.mass_proportional;
-    parallel_ranges(diagonal_.size(), [&](std::size_t first, std::size_t last) {
-        const auto entry = [&](std::size_t node) { return std::ptrdiff_t{4} * neighbour_starts_[node]; };
-        std::fill(values.begin() + entry(first), values.begin() + entry(last), 0.0);
-        for (std::size_t node = first; node < last; ++node) {
-            const double mass = c_mass * mass_[2 * node];
-            add_block(node, diagonal_[node], mass, 0, 0, mass);
-        }
-    });
-    for (const Damping::Block& block : damping_.blocks) {
-        const auto node = static_cast<std::size_t>(block.node);
-        const double c = factors.damping;
-        add_block(node, diagonal_[node], c * block.xx, c * block.xy, c * block.xy, c * block.yy);
-    }
+template <class BlockPlaces>
+void SolidTangent::add_elements(const State& accepted, const Trial& trial, const Factors& factors,
+                                BlockPlaces block_places, double* values) const {
     if (factors.stiffness == 0 && factors.velocity == 0) return;
-
     for (std::size_t colour = 0; colour + 1 < colour_starts_.size(); ++colour) {
         const auto first = static_cast<std::ptrdiff_t>(colour_starts_[colour]);
         const auto last = static_cast<std::ptrdiff_t>(colour_starts_[colour + 1]);
@@ -199,19 +188,76 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
             const PackRange& chunk = chunks_[static_cast<std::size_t>(c)];
             elements_.blocks()[chunk.block]->add_tangent(
                 chunk.first, chunk.last, elements_.evaluation(chunk.block, accepted, trial), -factors.stiffness,
-                -factors.velocity, {blocks_[chunk.block].data(), row_pairs_.data()}, values.data());
+                -factors.velocity, block_places(chunk.block), values);
         }
     }
-    for (std::size_t t = 0; t < terms_.size(); ++t) {
-        const auto& pairs = couplings_[t];
-        const std::span stiffness(term_stiffness_.data(), pairs.size());
-        terms_[t]->stiffness(trial, stiffness);
-        for (std::size_t i = 0; i < pairs.size(); ++i) {
-            const double c = -factors.stiffness;
-            const ForceTerm::Stiffness& df = stiffness[i];
-            add_block(static_cast<std::size_t>(pairs[i][0]), term_places_[t][i], c * df.xx, c * df.xy, c * df.yx,
-                      c * df.yy);
+}
+
+std::span<const ForceTerm::Stiffness> SolidTangent::stiffness(std::size_t term, const Trial& trial) const {
+    const std::span stiffness(term_stiffness_.data(), couplings_[term].size());
+    terms_[term]->stiffness(trial, stiffness);
+    return stiffness;
+}
+
+void SolidTangent::assemble(const State& accepted, const Trial& trial, const Factors& factors,
+                            std::span<double> values) const {
+    const Places& at = places();
+    const auto add_block = [&](std::size_t node, PairNumber place, double xx, double xy, double yx, double yy) {
+        double* upper = pair_at(values.data(), place);
+        double* lower = upper + 2 * at.row_pairs[node];
+        upper[0] += xx;
+        upper[1] += xy;
+        lower[0] += yx;
+        lower[1] += yy;
+    };
+    const double c_mass = factors.mass + factors.damping * damping_.mass_proportional;
+    parallel_ranges(at.diagonal.size(), [&](std::size_t first, std::size_t last) {
+        const auto entry = [&](std::size_t node) { return std::ptrdiff_t{4} * at.neighbour_starts[node]; };
+        std::fill(values.begin() + entry(first), values.begin() + entry(last), 0.0);
+        for (std::size_t node = first; node < last; ++node) {
+            const double mass = c_mass * mass_[2 * node];
+            add_block(node, at.diagonal[node], mass, 0, 0, mass);
         }
+    });
+    for (const Damping::Block& block : damping_.blocks) {
+        const auto node = static_cast<std::size_t>(block.node);
+        const double c = factors.damping;
+        add_block(node, at.diagonal[node], c * block.xx, c * block.xy, c * block.xy, c * block.yy);
+    }
+    const auto block_places = [&](std::size_t block) {
+        return ElementBlock::MatrixPlaces{at.blocks[block].data(), at.row_pairs.data()};
+    };
+    add_elements(accepted, trial, factors, block_places, values.data());
+    if (factors.stiffness == 0) return;
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+        const auto term = stiffness(t, trial);
+        for (std::size_t i = 0; i < term.size(); ++i) {
+            const double c = -factors.stiffness;
+            add_block(static_cast<std::size_t>(couplings_[t][i][0]), at.terms[t][i], c * term[i].xx, c * term[i].xy,
+                      c * term[i].yx, c * term[i].yy);
+        }
+    }
+}
+
+void SolidTangent::assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
+                                     std::span<double> diagonal) const {
+    const double c_mass = factors.mass + factors.damping * damping_.mass_proportional;
+    parallel_ranges(diagonal.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) diagonal[i] = c_mass * mass_[i];
+    });
+    const auto add = [&](std::int32_t node, double c, double xx, double yy) {
+        diagonal[2 * static_cast<std::size_t>(node)] += c * xx;
+        diagonal[2 * static_cast<std::size_t>(node) + 1] += c * yy;
+    };
+    for (const Damping::Block& block : damping_.blocks) add(block.node, factors.damping, block.xx, block.yy);
+    const auto no_places = [](std::size_t) { return ElementBlock::MatrixPlaces{nullptr, nullptr}; };
+    add_elements(accepted, trial, factors, no_places, diagonal.data());
+    if (factors.stiffness == 0) return;
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+        const auto term = stiffness(t, trial);
+        for (std::size_t i = 0; i < term.size(); ++i)
+            if (couplings_[t][i][0] == couplings_[t][i][1])
+                add(couplings_[t][i][0], -factors.stiffness, term[i].xx, term[i].yy);
     }
 }
 

@@ -22,17 +22,37 @@ public:
                  std::span<const double> lumped_mass, const Damping& damping);
 
     bool symmetric() const override { return symmetric_; }
-    std::size_t n_nonzero() const override { return 4 * neighbours_.size(); }
+    std::size_t n_nonzero() const override { return 4 * places().neighbours.size(); }
     MatrixPattern pattern() const override;
     void assemble(const State& accepted, const Trial& trial, const Factors& factors,
                   std::span<double> values) const override;
+    void assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
+                           std::span<double> diagonal) const override;
 
 private:
-    void plan_pattern();
+    /// Where everything stands in the matrix: the rows of a node one behind the other, a pair of entries per neighbour.
+    struct Places {
+        std::vector<std::int32_t> neighbours;         ///< nodes with which a node shares an element, itself among them
+        std::vector<std::int32_t> neighbour_starts;   ///< shape (nodes + 1)
+        std::vector<std::int32_t> row_pairs;          ///< pairs of entries in either row of a node: its neighbours
+        std::vector<std::vector<PairNumber>> blocks;  ///< ElementBlock::MatrixPlaces::blocks of each block
+        std::vector<PairNumber> diagonal;             ///< each node's own 2 x 2 block
+        std::vector<std::vector<PairNumber>> terms;   ///< what each term couples
+
+        /// Where the 2 x 2 block of two nodes begins.
+        PairNumber of(std::int32_t row_node, std::int32_t column_node) const;
+    };
+
     void plan_chunks();
-    void plan_terms();
-    /// Where the 2 x 2 block of two nodes begins: the rows of a node stand one behind the other, a pair per neighbour.
-    PairNumber place(std::int32_t row_node, std::int32_t column_node) const;
+    void plan_pattern(Places& places) const;
+    void plan_terms(Places& places) const;
+    /// Made when they are first asked for: the diagonal alone has no use for them.
+    const Places& places() const;
+    /// Adds the elements' part, colour by colour.
+    template <class BlockPlaces>
+    void add_elements(const State& accepted, const Trial& trial, const Factors& factors, BlockPlaces block_places,
+                      double* values) const;
+    std::span<const ForceTerm::Stiffness> stiffness(std::size_t term, const Trial& trial) const;
 
     const ElementForces& elements_;
     std::span<const std::unique_ptr<ForceTerm>> terms_;
@@ -40,16 +60,11 @@ private:
     const Damping& damping_;
     bool symmetric_;
 
-    std::vector<std::int32_t> neighbours_;         ///< nodes with which a node shares an element, itself among them
-    std::vector<std::int32_t> neighbour_starts_;   ///< shape (nodes + 1)
-    std::vector<std::int32_t> row_pairs_;          ///< pairs of entries in either row of a node: its neighbours
-    std::vector<std::vector<PairNumber>> blocks_;  ///< ElementBlock::MatrixPlaces::blocks of each block
-    std::vector<PackRange> chunks_;                ///< by colour
-    std::vector<std::size_t> colour_starts_;       ///< in chunks_
-    std::vector<PairNumber> diagonal_;             ///< place of each node's own 2 x 2 block
-    std::vector<std::vector<PairNumber>> term_places_;
+    std::vector<PackRange> chunks_;                             ///< by colour
+    std::vector<std::size_t> colour_starts_;                    ///< in chunks_
     mutable std::vector<ForceTerm::Stiffness> term_stiffness_;  ///< scratch
     std::vector<std::vector<std::array<std::int32_t, 2>>> couplings_;
+    mutable std::unique_ptr<Places> places_;
 };
 
 }  // namespace gneiss

@@ -124,6 +124,12 @@ void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::
         }
         // lanes behind the last element have no volume: they add zeros
         const std::int32_t* row_nodes = nodes_.data() + pack * index_stride;
+        if (places.blocks == nullptr) {
+            const auto* row = reinterpret_cast<const PairNumber*>(row_nodes);
+            for (std::size_t a = 0; a < Element::n_nodes; ++a, row += pack_width)
+                scatter_add_pairs(values, row, matrix[2 * a][2 * a], matrix[2 * a + 1][2 * a + 1]);
+            continue;
+        }
         const PairNumber* upper = places.blocks + pack * n_pairs * pack_width;
         for (std::size_t a = 0; a < Element::n_nodes; ++a, row_nodes += pack_width) {
             std::array<std::int32_t, pack_width> row_pairs;

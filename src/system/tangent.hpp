@@ -25,6 +25,10 @@ public:
 
     virtual ~Tangent() = default;
     virtual bool symmetric() const = 0;
+    /// The diagonal alone: what preconditions iterations without a matrix.
+    /// @param[out] diagonal  overwritten, shape (n_dof)
+    virtual void assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
+                                   std::span<double> diagonal) const = 0;
     virtual std::size_t n_nonzero() const = 0;
     /// Over all degrees of freedom, fixed while the topology stands; made anew by every call.
     virtual MatrixPattern pattern() const = 0;

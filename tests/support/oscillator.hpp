@@ -199,6 +199,13 @@ private:
             Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(values.data(), sum.rows(), sum.cols()) = sum;
         }
 
+        void assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
+                               std::span<double> diagonal) const override {
+            std::vector<double> values(n_nonzero());
+            assemble(accepted, trial, factors, values);
+            for (std::size_t i = 0; i < diagonal.size(); ++i) diagonal[i] = values[i * (diagonal.size() + 1)];
+        }
+
     private:
         const Oscillator& system_;
         MatrixPattern pattern_;

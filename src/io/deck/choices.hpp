@@ -156,11 +156,18 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
 }};
 
-inline const std::array<Choice<std::string>, 4> linear_solvers{{
+inline const std::array<Choice<std::string>, 6> linear_solvers{{
     {"automatic", "automatic", "CHOLMOD where the tangent is symmetric and positive definite, UMFPACK elsewhere"},
     {"cholmod", "cholmod", "Cholesky, for symmetric positive definite tangents alone"},
     {"klu", "klu", "LU for small and very sparse matrices"},
     {"umfpack", "umfpack", "LU by fronts, for large matrices"},
+    {"pcg", "pcg", "conjugate gradients, for symmetric positive definite tangents alone"},
+    {"gmres", "gmres", "generalized minimal residuals, for any tangent"},
+}};
+
+inline const std::array<Choice<std::string>, 2> preconditioners{{
+    {"incomplete", "incomplete", "a factorisation with about as many entries as the tangent"},
+    {"diagonal", "diagonal", "the diagonal: no memory, many iterations"},
 }};
 
 inline constexpr std::array<Choice<bool>, 2> step_bounds{{

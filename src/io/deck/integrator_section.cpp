@@ -18,6 +18,7 @@ const Section<IntegratorOptions>& integrator_section() {
         limited{{"type",
                  {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode",
                   "ida"}}},
+        iterative{{"solver", {"pcg", "gmres"}}},
         solved{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}};
     static const Section<I> section{
         {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
@@ -92,7 +93,20 @@ const Section<IntegratorOptions>& integrator_section() {
                 {.range = open_between(0, 1),
                  .only_for = statics,
                  .meaning = "load step, as a part of the first one, at which a run gives up"}),
-         choice("solver", &I::solver, linear_solvers, {.only_for = solved, .meaning = "of the linear systems"})}};
+         choice("solver", &I::solver, linear_solvers, {.only_for = solved, .meaning = "of the linear systems"}),
+         choice("preconditioner", &I::preconditioner, preconditioners,
+                {.only_for = iterative, .meaning = "what makes iterations few"}),
+         number("linear_tolerance", &I::linear_tolerance,
+                {.range = half_open(0, 0.1),
+                 .only_for = iterative,
+                 .meaning = "residual over right side, Euclidean norms"}),
+         integer("most_linear_iterations", &I::most_linear_iterations,
+                 {.range = at_least(1), .only_for = iterative, .meaning = "in one linear system"}),
+         boolean(
+             "matrix_free", &I::matrix_free,
+             {.only_for = {{"type", {"quasi_static"}}},
+              .meaning = "pcg and gmres with the diagonal as preconditioner: no matrix is kept, products with it are "
+                         "differences of forces"})}};
     return section;
 }
 

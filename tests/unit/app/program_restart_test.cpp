@@ -78,8 +78,9 @@ TEST_F(ProgramRestart, EveryIntegrator_FromItsCheckpoint_GivesTheSameBits) {
          {"type = \"generalized_alpha\", dt = 2e-4", "type = \"newmark\", adaptive = true",
           "type = \"hht_alpha\", dt = 2e-4", "type = \"cvode\"",
           "type = \"cvode\", method = \"adams\", iteration = \"functional\"", "type = \"ida\"",
-          "type = \"cvode\", solver = \"klu\"", "type = \"arkode\"", "type = \"arkode\", table = \"sdirk_2_1_2\"",
-          "type = \"arkode\", table = \"ark324l2sa_4_2_3\", dt = 1e-4"}) {
+          "type = \"cvode\", solver = \"klu\"", "type = \"ida\", solver = \"gmres\"",
+          "type = \"newmark\", dt = 2e-4, solver = \"gmres\", preconditioner = \"diagonal\"", "type = \"arkode\"",
+          "type = \"arkode\", table = \"sdirk_2_1_2\"", "type = \"arkode\", table = \"ark324l2sa_4_2_3\", dt = 1e-4"}) {
         const std::vector<std::string> scheme{"--set", "mesh.cells=[4,2]", "--set", "integrator={" + settings + "}"};
         const auto with = [&](std::vector<std::string> more) {
             more.insert(more.begin(), scheme.begin(), scheme.end());

@@ -49,6 +49,14 @@ Physical Surface("rock") = {1, 2};
     }
 };
 
+class ProgramIterative : public ProgramStatic {
+protected:
+    /// Under a traction, whose tangent is symmetric.
+    static std::string dead_load() {
+        return replaced(replaced(ramped(), "\"pressure\"", "\"traction\""), "value = 1e6", "value = [1e6, 2e5]");
+    }
+};
+
 INSTANTIATE_TEST_SUITE_P(Both, ProgramStatic, testing::Values("quasi_static", "dynamic_relaxation"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
@@ -74,8 +82,10 @@ TEST_P(ProgramStatic, LoadSteps_StandInATable_AlsoAfterARestart) {
     };
     ASSERT_EQ(run("whole", {}).code, 0);
     const std::string table = contents("whole/load_steps.csv");
-    EXPECT_THAT(table, StartsWith("t [s],dt [s],rejected,iterations,factorisations,force_evaluations,unbalanced,"
-                                  "why_rejected\n0.0001,0.0001,0,"));
+    EXPECT_THAT(
+        table,
+        StartsWith("t [s],dt [s],rejected,iterations,factorisations,linear_iterations,force_evaluations,unbalanced,"
+                   "why_rejected\n0.0001,0.0001,0,"));
     EXPECT_EQ(n_lines("whole/load_steps.csv"), 11u);
     ASSERT_EQ(run("parts", {"run.t_end=5e-4"}).code, 0);
     EXPECT_EQ(n_lines("parts/load_steps.csv"), 6u);
@@ -103,6 +113,42 @@ TEST_P(ProgramStatic, Check_SaysWhatMemoryTheMatrixTakes_AndNothingOfTime) {
     EXPECT_THAT(ended.out, Not(HasSubstr("run time")));
     const bool newton = std::string(GetParam()) == "quasi_static";
     EXPECT_EQ(newton, ended.out.find("MB of it matrices and their factors") != std::string::npos) << ended.out;
+}
+
+TEST_F(ProgramIterative, EverySolver_FindsTheSameEquilibrium) {
+    const auto left = [&](const std::string& settings) {
+        put("case.toml", dead_load());
+        const Ended ended = gneiss({"run", "case.toml", "--quiet", "--threads", "1", "--set",
+                                    "integrator={ type = \"quasi_static\", tolerance = 1e-8, " + settings + " }"});
+        EXPECT_EQ(ended.code, 0) << settings << ended.err;
+        return summary("results/case")["energies_J"]["stored_material"].get<double>();
+    };
+    const double direct = left("solver = \"cholmod\"");
+    EXPECT_GT(direct, 0);
+    for (const char* settings :
+         {"solver = \"pcg\"", "solver = \"pcg\", preconditioner = \"diagonal\", linear_tolerance = 1e-6",
+          "solver = \"gmres\", most_linear_iterations = 500",
+          "solver = \"pcg\", preconditioner = \"diagonal\", matrix_free = true",
+          "solver = \"gmres\", preconditioner = \"diagonal\", matrix_free = true"})
+        // forces out of balance by 1e-8 leave the energy at the equilibrium alone but for a condition of some hundred
+        EXPECT_NEAR(left(settings), direct, 1e-6 * direct) << settings;
+}
+
+TEST_F(ProgramIterative, WhatDoesNotGoTogether_IsRefusedWithAReason) {
+    const auto refusal = [&](const std::string& deck, const std::vector<std::string>& settings) {
+        put("case.toml", deck);
+        std::vector<std::string> arguments{"run", "case.toml", "--quiet", "--set", "integrator.type=quasi_static"};
+        arguments.insert(arguments.end(), settings.begin(), settings.end());
+        const Ended ended = gneiss(arguments);
+        EXPECT_EQ(ended.code, 2);
+        return ended.err;
+    };
+    EXPECT_THAT(refusal(ramped(), {"integrator.solver=pcg"}), HasSubstr("the tangent is not symmetric: take gmres"));
+    EXPECT_THAT(
+        refusal(dead_load(), {"integrator.matrix_free=true"}),
+        AllOf(HasSubstr("needs solver = \"pcg\" or \"gmres\""), HasSubstr("needs preconditioner = \"diagonal\"")));
+    EXPECT_THAT(refusal(dead_load(), {"integrator.preconditioner=diagonal"}),
+                HasSubstr("only for `solver` = \"pcg\", \"gmres\", here `solver` is \"automatic\""));
 }
 
 TEST_P(ProgramStatic, TooFewSupports_TheMotionsLeftAreNamed) {

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "support/one_thread.hpp"
 #include "support/oscillator.hpp"
 #include "unit/integrators/static_cases.hpp"
@@ -54,6 +56,48 @@ TEST(QuasiStatic, WithoutSupports_IsSingularAndMovesNothing) {
         EXPECT_THAT(error.what(), HasSubstr("singular"));
     }
     EXPECT_EQ(state, before);
+}
+
+TEST(QuasiStatic, SolverThatKeepsItsPivots_SavedAndLoaded_GoesOnWithTheSameBits) {
+    const test::Solid solid = test::distorted_solid(true, test::sheared(1e8));
+    QuasiStatic integrator({{.step = 0.25}, "klu"}), other({{.step = 0.25}, "klu"});
+    State state = solid.system->initial_state();
+    integrator.start(*solid.system, state, StartReason::fresh);
+    integrator.advance(*solid.system, state, 1);
+    State other_state = state;
+    other.load(*solid.system, other_state, integrator.save());
+    while (state.t < 1) {
+        integrator.advance(*solid.system, state, 1);
+        other.advance(*solid.system, other_state, 1);
+        ASSERT_EQ(state, other_state);
+    }
+}
+
+TEST(QuasiStatic, PressedColumnStraightPastBuckling_WarnsOnce) {
+    // Euler's load of a cantilever without transverse strain, pi^2 E I/(4 L^2): over a height h, E pi^2/48 (h/L)^2
+    const double modulus = 1e9, height = 0.5, length = 10;
+    const double critical = modulus * M_PI * M_PI / 48 * height * height / (length * length);
+    test::SolidDescription what;
+    what.materials[0] = test::rock(0);
+    what.materials[0].constants = {0, modulus, modulus, modulus};
+    what.boundaries = {held("left", 0, 0)};
+    what.loads = {test::loaded(LoadOptions::Kind::traction, -4 * critical, 0)};
+    what.loads[0].on = "right";
+    const test::Solid solid =
+        test::make_solid(test::rectangle(true, length, height, {40, 2}, MeshOptions::Pattern::crossed), what);
+    QuasiStatic integrator({{.step = 0.1, .longest = 0.1}});
+    State state = solid.system->initial_state();
+    std::vector<std::string> warnings;
+    March march;
+    march.t_end = 1;
+    march.after_step = [&](const StepReport& step) {
+        if (!step.warning.empty()) warnings.push_back(step.warning);
+        return true;
+    };
+    march.run(*solid.system, integrator, state, false);
+    ASSERT_EQ(warnings.size(), 1u);
+    // critical at t = 0.25; the mesh of four elements over the height is stiffer by some per cent
+    EXPECT_THAT(warnings[0], HasSubstr("the tangent is indefinite at load time t = 0.3 s"));
 }
 
 TEST(QuasiStatic, SystemWithoutTangent_IsRefused) {

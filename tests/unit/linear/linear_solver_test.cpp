@@ -4,13 +4,11 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
 #include <functional>
 #include <limits>
-#include <random>
 
+#include "sparse_matrices.hpp"
 #include "support/one_thread.hpp"
-#include "support/small_solids.hpp"
 
 namespace gneiss {
 namespace {
@@ -22,57 +20,10 @@ struct Choice {
     std::function<std::unique_ptr<LinearSolver>()> make;
 };
 
-/// A matrix in compressed rows with the pattern of a solid.
-struct Sparse {
-    test::Solid solid = test::distorted_solid(true);
-    const Tangent& tangent = *solid.system->tangent();
-    MatrixPattern arrays = tangent.pattern();
-    SparsePattern pattern{arrays.row_starts, arrays.columns};
-    std::vector<double> values = std::vector<double>(pattern.n_nonzero());
-
-    /// K + mass times M in relative units: positive definite if mass > 0, with the rigid modes of K if mass = 0.
-    explicit Sparse(double mass) {
-        const State state = solid.system->initial_state();
-        std::vector<double> m(values.size());
-        tangent.assemble(state, Trial::of(state), {.stiffness = 1}, values);
-        tangent.assemble(state, Trial::of(state), {.mass = 1}, m);
-        const double scale = std::ranges::max(values) / std::ranges::max(m);
-        for (std::size_t k = 0; k < values.size(); ++k) values[k] += mass * scale * m[k];
-    }
-    /// Makes it unsymmetric; still far from singular.
-    void disturb() {
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> factor(0.9, 1.1);
-        for (double& value : values) value *= factor(random);
-    }
-    Eigen::MatrixXd dense() const {
-        const auto n = static_cast<Eigen::Index>(pattern.n());
-        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-        for (Eigen::Index row = 0; row < n; ++row)
-            for (auto k = pattern.row_starts[static_cast<std::size_t>(row)];
-                 k < pattern.row_starts[static_cast<std::size_t>(row) + 1]; ++k)
-                matrix(row, pattern.columns[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
-        return matrix;
-    }
-};
-
 /// Largest |A x - b| over |A||x|, in eps.
 double backward_error(const Sparse& a, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
     const Eigen::MatrixXd dense = a.dense();
     return (dense * x - b).cwiseAbs().maxCoeff() / (dense.cwiseAbs() * x.cwiseAbs()).maxCoeff() / eps;
-}
-
-Eigen::VectorXd solve(LinearSolver& solver, const Eigen::VectorXd& b) {
-    Eigen::VectorXd x(b.size());
-    const auto n = static_cast<std::size_t>(b.size());
-    solver.solve({b.data(), n}, {x.data(), n});
-    return x;
-}
-
-Eigen::VectorXd right_side(const Sparse& a, unsigned seed) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(a.pattern.n()), [&] { return normal(random); });
 }
 
 std::unique_ptr<LinearSolver> make_automatic() { return make_linear_solver("automatic", true); }
@@ -220,8 +171,29 @@ TEST(MakeLinearSolver, NamesAndSymmetry_AreChecked) {
     EXPECT_EQ(make_linear_solver("umfpack", true)->name(), "umfpack");
     EXPECT_EQ(make_linear_solver("cholmod", true)->name(), "cholmod");
     EXPECT_EQ(make_linear_solver("automatic", false)->name(), "umfpack");
+    EXPECT_EQ(make_linear_solver("pcg", true)->name(), "pcg");
+    EXPECT_EQ(make_linear_solver("gmres", false)->name(), "gmres");
     EXPECT_THROW(make_linear_solver("cholmod", false), InputError);
+    EXPECT_THROW(make_linear_solver("pcg", false), InputError);
     EXPECT_THROW(make_linear_solver("mumps", true), InputError);
+}
+
+TEST(LinearSolverOptions, OutOfRange_AreNamedAllAtOnce) {
+    LinearSolverOptions options("mumps");
+    options.preconditioner = "multigrid";
+    options.tolerance = 0;
+    options.most_iterations = 0;
+    try {
+        make_linear_solver(options, true);
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        using testing::HasSubstr;
+        EXPECT_THAT(error.what(),
+                    HasSubstr("given `mumps`, must be one of automatic, cholmod, klu, umfpack, pcg, gmres"));
+        EXPECT_THAT(error.what(), HasSubstr("given `multigrid`, must be one of incomplete, diagonal"));
+        EXPECT_THAT(error.what(), HasSubstr("integrator.linear_tolerance"));
+        EXPECT_THAT(error.what(), HasSubstr("integrator.most_linear_iterations"));
+    }
 }
 
 }  // namespace

@@ -207,6 +207,33 @@ TEST(SolidTangent, FollowerPressure_IsTheDerivativeOfTheForce) {
     EXPECT_GT(largest(matrix - without), 1e-3 * largest(expected)) << "the pressure is there";
 }
 
+TEST(SolidTangent, DiagonalAlone_IsThatOfTheMatrix) {
+    test::SolidDescription what;
+    what.mass_damping = 3;
+    what.materials[0].shear_viscosity = 1e6;
+    BoundaryOptions absorbing;
+    absorbing.on = "right";
+    absorbing.kind = BoundaryOptions::Kind::absorbing;
+    what.boundaries = {absorbing};
+    LoadOptions pressure;
+    pressure.kind = LoadOptions::Kind::pressure;
+    pressure.on = "top";
+    pressure.value[0] = Formula(1e8);
+    what.loads = {pressure};
+    for (const bool compt : {false, true}) {
+        const test::Solid solid = test::distorted_solid(compt, what);
+        const State state = moved(solid, 0.05);
+        const Tangent::Factors factors{.mass = 2e5, .damping = 1e3, .stiffness = 1, .velocity = 10};
+        std::vector<double> diagonal(state.u.size(), 1e300);
+        solid.system->tangent()->assemble_diagonal(state, Trial::of(state), factors, diagonal);
+        const Eigen::MatrixXd matrix = test::dense(*solid.system->tangent(), state, Trial::of(state), factors);
+        for (std::size_t i = 0; i < diagonal.size(); ++i) {
+            const double expected = matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+            EXPECT_NEAR(diagonal[i], expected, 1e-14 * largest(matrix));
+        }
+    }
+}
+
 TEST(SolidTangent, OneAndTwoThreads_SameBits) {
     const test::Solid solid = test::make_solid(test::rectangle(true, 3, 3, {30, 30}), {});
     const State state = moved(solid, 0.01);

@@ -1,0 +1,207 @@
+#include "integrators/static_tangent.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <vector>
+
+#include "integrators/free_part.hpp"
+#include "linear/krylov.hpp"
+
+namespace gneiss {
+namespace {
+
+const Tangent& tangent_of(const SemiDiscrete& system) { return tangent_of(system, "quasi_static"); }
+
+/// The free degrees of freedom alone.
+FreeMatrix without_entries(const SemiDiscrete& system) {
+    const std::vector<std::int64_t> starts(system.layout().n_dof + 1, 0);
+    return FreeMatrix({starts, {}}, constrained_dofs(system));
+}
+
+class Assembled final : public StaticTangent {
+public:
+    Assembled(const SemiDiscrete& system, const LinearSolverOptions& options, SUNContext context)
+        : StaticTangent(free_part(system, tangent_of(system)), context),
+          tangent_(tangent_of(system)),
+          values_(tangent_.n_nonzero()),
+          solver_(make_linear_solver(options, tangent_.symmetric())) {
+        if (n() > 0) solver_->analyse(free_.pattern());
+    }
+
+    void linearise(const State& accepted, const Trial& trial) override {
+        tangent_.assemble(accepted, trial, {.stiffness = 1}, values_);
+    }
+    void subtract_fixed(std::span<const double> x_fixed, std::span<double> right) override {
+        free_.subtract_fixed(values_, x_fixed, right);
+    }
+    void factorise() override {
+        free_.take_values(values_, free_values());
+        solver_->factorise(free_values());
+    }
+    void forget() override { solver_->forget(); }
+    void solve(std::span<const double> b, std::span<double> x) override { solver_->solve(b, x); }
+    void multiply(std::span<const double> x, std::span<double> y) override {
+        gneiss::multiply(free_.pattern(), free_values(), x, y);
+    }
+    bool indefinite() const override { return solver_->indefinite(); }
+    std::size_t iterations() const override { return solver_->iterations(); }
+    double bytes() const override {
+        return static_cast<double>(values_.size() * sizeof(double) + free_.bytes()) +
+               (n() > 0 ? solver_->expected_factor_bytes() : 0.0);
+    }
+
+private:
+    std::span<double> free_values() { return {values_.data(), free_.pattern().n_nonzero()}; }
+
+    const Tangent& tangent_;
+    std::vector<double> values_;  ///< of all degrees of freedom, or, once factorised, of the free ones in front
+    std::unique_ptr<LinearSolver> solver_;
+};
+
+class MatrixFree final : public StaticTangent {
+public:
+    MatrixFree(const SemiDiscrete& system, const LinearSolverOptions& options, SUNContext context)
+        : StaticTangent(without_entries(system), context),
+          system_(system),
+          definite_(options.solver == "pcg"),
+          krylov_(definite_ ? Krylov::Method::pcg : Krylov::Method::gmres, n(),
+                  {.tolerance = options.tolerance, .most_iterations = options.most_iterations, .exact = false}),
+          fixed_(constrained_dofs(system)) {
+        for (auto* values : {&u_, &v_, &moved_, &f_, &f_moved_, &inverse_diagonal_})
+            values->resize(system.layout().n_dof);
+    }
+
+    void linearise(const State& accepted, const Trial& trial) override {
+        accepted_ = &accepted;
+        t_ = trial.t;
+        last_event_ = trial.last_event;
+        std::ranges::copy(trial.u, u_.begin());
+        std::ranges::copy(trial.v, v_.begin());
+        evaluate(u_, f_);
+        tangent_of(system_).assemble_diagonal(accepted, trial, {.stiffness = 1}, inverse_diagonal_);
+    }
+    void subtract_fixed(std::span<const double> x_fixed, std::span<double> right) override {
+        const double scale = step(x_fixed);
+        if (scale == 0) return;
+        std::ranges::copy(u_, moved_.begin());
+        for (std::size_t k = 0; k < fixed_.size(); ++k) moved_[fixed_[k]] += scale * x_fixed[k];
+        evaluate(moved_, f_moved_);
+        const auto free = free_.free();
+        for (std::size_t i = 0; i < right.size(); ++i) right[i] += (f_moved_[free[i]] - f_[free[i]]) / scale;
+    }
+    void factorise() override {
+        for (const std::size_t dof : free_.free()) {
+            const double entry = inverse_diagonal_[dof];
+            if (definite_ && !(entry > 0))
+                throw NotPositiveDefinite(fmt::format(
+                    "the matrix is not positive definite: its diagonal holds {:.3g} at node {}", entry, dof / 2 + 1));
+            inverse_diagonal_[dof] = entry != 0 ? 1 / entry : 1.0;
+        }
+    }
+    void solve(std::span<const double> b, std::span<double> x) override {
+        krylov_.solve([this](std::span<const double> in, std::span<double> out) { multiply(in, out); },
+                      [this](std::span<const double> r, std::span<double> z) {
+                          const auto free = free_.free();
+                          for (std::size_t i = 0; i < z.size(); ++i) z[i] = inverse_diagonal_[free[i]] * r[i];
+                      },
+                      b, x);
+    }
+    void multiply(std::span<const double> x, std::span<double> y) override {
+        const double scale = step(x);
+        std::ranges::fill(y, 0.0);
+        if (scale == 0) return;
+        std::ranges::copy(u_, moved_.begin());
+        const auto free = free_.free();
+        for (std::size_t i = 0; i < x.size(); ++i) moved_[free[i]] += scale * x[i];
+        evaluate(moved_, f_moved_);
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] = (f_[free[i]] - f_moved_[free[i]]) / scale;
+    }
+    std::size_t iterations() const override { return krylov_.iterations(); }
+    std::size_t evaluations() const override { return evaluations_; }
+    double bytes() const override {
+        constexpr std::size_t vectors = 6;
+        return static_cast<double>(vectors * u_.size() * sizeof(double) + free_.bytes() + krylov_.bytes());
+    }
+
+private:
+    /// Factor that makes x a displacement small enough for a difference: strains of 1e-8, with an error of as much, and
+    /// of round-off in strains of a percent over it.
+    double step(std::span<const double> x) const {
+        double largest = 0;
+        for (const double value : x) largest = std::max(largest, std::abs(value));
+        return largest > 0 ? 1e-8 * system_.smallest_length() / largest : 0.0;
+    }
+    void evaluate(std::span<const double> u, std::span<double> f) {
+        system_.force(*accepted_, {t_, last_event_, u, v_, {}}, f);
+        ++evaluations_;
+    }
+
+    const SemiDiscrete& system_;
+    bool definite_;  ///< K has to be
+    Krylov krylov_;
+    std::vector<std::size_t> fixed_;
+    // where K is taken
+    const State* accepted_ = nullptr;
+    double t_ = 0, last_event_ = 0;
+    std::vector<double> u_, v_, f_, inverse_diagonal_;
+    std::vector<double> moved_, f_moved_;
+    std::size_t evaluations_ = 0;
+};
+
+}  // namespace
+
+StaticTangent::StaticTangent(FreeMatrix free, SUNContext context)
+    : free_(std::move(free)), matrix_(SUNMatNewEmpty(context)), linear_solver_(SUNLinSolNewEmpty(context)) {
+    if (matrix_ == nullptr || linear_solver_ == nullptr) throw std::bad_alloc();
+    matrix_->content = this;
+    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    matrix_->ops->zero = [](SUNMatrix) { return 0; };
+    matrix_->ops->matvec = [](SUNMatrix matrix, N_Vector x, N_Vector y) {
+        auto& self = *static_cast<StaticTangent*>(matrix->content);
+        return self.guard_([&] { self.multiply(values_of(x), values_of(y)); });
+    };
+    linear_solver_->content = this;
+    linear_solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    linear_solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+    linear_solver_->ops->initialize = [](SUNLinearSolver) { return 0; };
+    linear_solver_->ops->setup = [](SUNLinearSolver solver, SUNMatrix) {
+        auto& self = *static_cast<StaticTangent*>(solver->content);
+        self.guard_.forget();
+        return self.guard_([&] { self.factorise(); });
+    };
+    linear_solver_->ops->solve = [](SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+        auto& self = *static_cast<StaticTangent*>(solver->content);
+        return self.guard_([&] { self.solve(values_of(b), values_of(x)); });
+    };
+}
+
+StaticTangent::~StaticTangent() {
+    SUNMatFreeEmpty(matrix_);
+    SUNLinSolFreeEmpty(linear_solver_);
+}
+
+std::unique_ptr<StaticTangent> make_assembled_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
+                                                      SUNContext context) {
+    return std::make_unique<Assembled>(system, options, context);
+}
+
+std::unique_ptr<StaticTangent> make_matrix_free_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
+                                                        SUNContext context) {
+    options.validate();
+    std::vector<Problem> problems;
+    if (!options.iterative())
+        problems.push_back({"integrator.matrix_free", fmt::format("needs solver = \"pcg\" or \"gmres\": without a "
+                                                                  "matrix `{}` has nothing to factorise",
+                                                                  options.solver)});
+    if (options.preconditioner != "diagonal")
+        problems.push_back({"integrator.matrix_free",
+                            "needs preconditioner = \"diagonal\": an incomplete factorisation needs the matrix"});
+    if (options.solver == "pcg" && !tangent_of(system).symmetric())
+        problems.push_back({"integrator.solver", "given `pcg`, but the tangent is not symmetric: take gmres"});
+    if (!problems.empty()) throw InputError(problems);
+    return std::make_unique<MatrixFree>(system, options, context);
+}
+
+}  // namespace gneiss
