@@ -88,10 +88,12 @@ void Arkode::Options::validate() const {
     if (!problems.empty()) throw InputError(problems);
 }
 
+bool Arkode::is_explicit(const std::string& table) {
+    return find_table(table).kind() == RungeKuttaTable::Kind::explicit_;
+}
+
 Arkode::Arkode(const Options& options)
-    : SundialsOde(options, find_table(options.table).kind() != RungeKuttaTable::Kind::explicit_),
-      options_(options),
-      table_(find_table(options.table)) {
+    : SundialsOde(options, !is_explicit(options.table)), options_(options), table_(find_table(options.table)) {
     options_.validate();
 }
 

@@ -32,6 +32,10 @@ public:
         /// @throws InputError
         void validate() const;
     };
+
+    /// Whether a table, by name, is explicit: there is nothing to solve.
+    /// @throws InputError if there is none of this name
+    static bool is_explicit(const std::string& table);
     explicit Arkode(const Options& options);
 
     std::string name() const override { return "arkode"; }

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/prescribed_motion.hpp"
+
 namespace gneiss {
 
-void LoadStepping::Options::validate() const {
-    std::vector<Problem> problems;
+void LoadStepping::Options::check(std::vector<Problem>& problems) const {
     const auto need = [&](bool fine, const char* key, const std::string& message) {
         if (!fine) problems.push_back({std::string("integrator.") + key, message});
     };
@@ -16,11 +17,12 @@ void LoadStepping::Options::validate() const {
     need(longest >= 0 && std::isfinite(longest), "longest", fmt::format("given {} s, must be >= 0 s", longest));
     need(shortest > 0 && shortest < 1, "shortest", fmt::format("given {}, must be in (0, 1)", shortest));
     need(most_iterations >= 0, "most_iterations", fmt::format("given {}, must be >= 0", most_iterations));
-    if (!problems.empty()) throw InputError(problems);
 }
 
 LoadStepping::LoadStepping(const Options& options, int enough) : options_(options) {
-    options_.validate();
+    std::vector<Problem> problems;
+    options.check(problems);
+    if (!problems.empty()) throw InputError(problems);
     if (options_.most_iterations == 0) options_.most_iterations = enough;
 }
 
@@ -39,6 +41,7 @@ void LoadStepping::start(const SemiDiscrete& system, State& state, StartReason w
     if (why != StartReason::reinitialise) allocate_all(system);
     if (why == StartReason::fresh) dt_ = options_.step, first_dt_ = 0;
     std::ranges::fill(state.v, 0.0);
+    state.path.viscous_power = 0;
     system.force(state, Trial::of(state), f_);
     for (std::size_t k = 0; k < reactions_.size(); ++k) reactions_[k] = -f_[system.constraints()[k].dof];
 }
@@ -100,12 +103,11 @@ void LoadStepping::attempt(const SemiDiscrete& system, State& state, double t_st
 
 void LoadStepping::find_changes(const SemiDiscrete& system, const State& state) {
     const auto constraints = system.constraints();
-    const double dt = next_.t - state.t;
     system.constraint_values(next_.t, next_.last_event, prescribed_);
-    system.constraint_values(state.t + 0.5 * dt, next_.last_event, change_);
     for (std::size_t k = 0; k < constraints.size(); ++k)
-        change_[k] = constraints[k].kind == Constraint::Kind::velocity ? dt * change_[k]
-                                                                       : prescribed_[k] - state.u[constraints[k].dof];
+        change_[k] =
+            constraints[k].kind == Constraint::Kind::velocity ? 0.0 : prescribed_[k] - state.u[constraints[k].dof];
+    add_travel(system, state.t, next_.t, next_.last_event, prescribed_, change_);
 }
 
 double LoadStepping::accept(const SemiDiscrete& system, State& state) {

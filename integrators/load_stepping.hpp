@@ -22,8 +22,8 @@ public:
         double shortest = 1e-6;   ///< load step at which to give up, part of the first one, (0, 1)
         int most_iterations = 0;  ///< in a load step, >= 0; 0: as many as the method should need
 
-        /// @throws InputError
-        void validate() const;
+        /// Adds what is wrong, under "integrator.".
+        void check(std::vector<Problem>& problems) const;
     };
     /// Of what has been done since the integrator was made, rejected trials included.
     struct Counts {
@@ -55,6 +55,7 @@ protected:
     };
 
     /// @param enough  iterations where options leave their number to the method
+    /// @throws InputError
     LoadStepping(const Options& options, int enough);
 
     /// For a system of this layout.

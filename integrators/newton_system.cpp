@@ -1,7 +1,6 @@
 #include "integrators/newton_system.hpp"
 
 #include <algorithm>
-#include <new>
 
 #include "base/parallel.hpp"
 #include "integrators/free_part.hpp"
@@ -44,23 +43,8 @@ NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, con
         for (auto* values : {&z_, &rate_, &rate_zero_}) values->assign(layout.n_internal, 0.0);
     }
 
-    matrix_ = SUNMatNewEmpty(context);
-    linear_solver_ = SUNLinSolNewEmpty(context);
-    if (matrix_ == nullptr || linear_solver_ == nullptr) throw std::bad_alloc();
-    matrix_->content = this;
-    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
-    matrix_->ops->zero = [](SUNMatrix) { return 0; };
-    linear_solver_->content = this;
-    linear_solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-    linear_solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
-    linear_solver_->ops->initialize = [](SUNLinearSolver) { return 0; };
-    linear_solver_->ops->setup = setup;
-    linear_solver_->ops->solve = solve;
-}
-
-NewtonSystem::~NewtonSystem() {
-    SUNMatFreeEmpty(matrix_);
-    SUNLinSolFreeEmpty(linear_solver_);
+    matrix_ = new_matrix(this, context);
+    linear_solver_ = new_linear_solver(this, context);
 }
 
 void NewtonSystem::take_tangent(const Trial& trial, const Tangent::Factors& factors, std::vector<double>& to) {
@@ -92,12 +76,7 @@ double NewtonSystem::bytes() const {
            (free_.n() > 0 ? solver_->expected_factor_bytes() : 0.0);
 }
 
-int NewtonSystem::setup(SUNLinearSolver self, SUNMatrix) {
-    auto& system = *static_cast<NewtonSystem*>(self->content);
-    return system.guard_([&] { system.factorise(); });
-}
-
-void NewtonSystem::factorise() {
+void NewtonSystem::set_up() {
     if (free_.n() == 0) return;
     const double gamma = gamma_, square = gamma * gamma;
     parallel_ranges(values_.size(), [&](std::size_t first, std::size_t last) {
@@ -108,11 +87,6 @@ void NewtonSystem::factorise() {
     for (std::size_t row = 0; row < diagonal_.size(); ++row) values_[diagonal_[row]] += mass_[row];
     solver_->factorise(values_);
     ++counts_.factorisations;
-}
-
-int NewtonSystem::solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype) {
-    auto& system = *static_cast<NewtonSystem*>(self->content);
-    return system.guard_([&] { system.solve(values_of(b), values_of(x)); });
 }
 
 void NewtonSystem::solve(std::span<const double> b, std::span<double> x) {

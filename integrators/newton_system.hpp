@@ -34,10 +34,9 @@ public:
                  SUNContext context);
     NewtonSystem(const NewtonSystem&) = delete;
     NewtonSystem& operator=(const NewtonSystem&) = delete;
-    ~NewtonSystem();
 
-    SUNMatrix matrix() const { return matrix_; }
-    SUNLinearSolver linear_solver() const { return linear_solver_; }
+    SUNMatrix matrix() const { return matrix_.get(); }
+    SUNLinearSolver linear_solver() const { return linear_solver_.get(); }
 
     /// Assembles the tangents at y. They serve for any gamma until the next call.
     void linearise(const State& accepted, double t, std::span<const double> y);
@@ -45,6 +44,10 @@ public:
     /// @param gamma        s
     /// @param right_scale  b is this times what SUNDIALS hands over: gamma for systems (I/gamma - dF/dy) x = b
     void set(double gamma, double right_scale) { gamma_ = gamma, right_scale_ = right_scale; }
+
+    // What SUNDIALS asks of linear_solver().
+    void set_up();
+    void solve(std::span<const double> b, std::span<double> x);
 
     /// A solver that starts anew must not depend on earlier matrices.
     void forget() { solver_->forget(); }
@@ -55,10 +58,6 @@ public:
     double bytes() const;
 
 private:
-    static int setup(SUNLinearSolver self, SUNMatrix);
-    static int solve(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype);
-    void factorise();
-    void solve(std::span<const double> b, std::span<double> x);
     void take_tangent(const Trial& trial, const Tangent::Factors& factors, std::vector<double>& to);
     /// right += gamma df/dz b_z.
     void add_internal_forces(std::span<const double> b_z);
@@ -79,8 +78,8 @@ private:
     double gamma_ = 0, right_scale_ = 1;
     Counts counts_;
     CallbackGuard guard_;
-    SUNMatrix matrix_ = nullptr;
-    SUNLinearSolver linear_solver_ = nullptr;
+    OwnedMatrix matrix_;
+    OwnedLinearSolver linear_solver_;
 };
 
 }  // namespace gneiss

@@ -49,11 +49,21 @@ constexpr std::array<double, 5> gauss_weights{0.5 * 0.236926885056189088, 0.5 * 
 
 }  // namespace
 
+void add_travel(const SemiDiscrete& system, double t0, double t, double last_event, std::span<double> scratch,
+                std::span<double> u) {
+    const auto constraints = system.constraints();
+    const auto is_velocity = [](const Constraint& c) { return c.kind == Constraint::Kind::velocity; };
+    if (t == t0 || std::ranges::none_of(constraints, is_velocity)) return;
+    for (std::size_t i = 0; i < gauss_points.size(); ++i) {
+        system.constraint_values(t0 + gauss_points[i] * (t - t0), last_event, scratch);
+        for (std::size_t k = 0; k < constraints.size(); ++k)
+            if (is_velocity(constraints[k])) u[k] += gauss_weights[i] * (t - t0) * scratch[k];
+    }
+}
+
 void PrescribedMotion::bind(const SemiDiscrete& system, double omega) {
     const auto constraints = system.constraints();
     spacing_ = spacing_of_values / omega;
-    any_velocity_ =
-        std::ranges::any_of(constraints, [](const Constraint& c) { return c.kind == Constraint::Kind::velocity; });
     for (auto* values : {&start_, &u_, &v_, &a_, &scratch_}) values->assign(constraints.size(), 0.0);
     for (auto& values : values_) values.assign(constraints.size(), 0.0);
 }
@@ -114,12 +124,7 @@ void PrescribedMotion::evaluate(const SemiDiscrete& system, double t) {
             for (std::size_t i = 0; i < n_points; ++i) v_[k] += derivative[i] / spacing_ * values_[i][k];
         }
     }
-    if (!any_velocity_ || t == t0_) return;
-    for (std::size_t i = 0; i < gauss_points.size(); ++i) {
-        system.constraint_values(t0_ + gauss_points[i] * (t - t0_), last_event_, scratch_);
-        for (std::size_t k = 0; k < constraints.size(); ++k)
-            if (constraints[k].kind == Constraint::Kind::velocity) u_[k] += gauss_weights[i] * (t - t0_) * scratch_[k];
-    }
+    add_travel(system, t0_, t, last_event_, scratch_, u_);
 }
 
 std::span<const double> PrescribedMotion::acceleration(const SemiDiscrete& system) {

@@ -14,6 +14,12 @@
 
 namespace gneiss {
 
+/// Adds the displacements that prescribed velocities make between two instants: the Gauss rule of order 10.
+/// @param scratch     overwritten, shape (constraints)
+/// @param[in,out] u   m, shape (constraints)
+void add_travel(const SemiDiscrete& system, double t0, double t, double last_event, std::span<double> scratch,
+                std::span<double> u);
+
 class PrescribedMotion {
 public:
     /// @param omega  upper bound of the natural frequencies, rad/s
@@ -47,7 +53,6 @@ private:
 
     double spacing_ = 0;  ///< s
     double t0_ = 0, last_event_ = 0, t_ = 0;
-    bool any_velocity_ = false;
     std::vector<double> start_, u_, v_, a_, scratch_, net_;
     std::array<std::vector<double>, n_points> values_;
 };

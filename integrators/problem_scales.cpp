@@ -1,28 +1,35 @@
 #include "integrators/problem_scales.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/largest.hpp"
 #include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
 namespace {
 
-double largest_of(std::span<const double> values) {
-    double largest = 0;
-    for (const double value : values) largest = std::max(largest, std::abs(value));
-    return largest;
-}
-
-double largest_of(std::span<const double> values, std::span<const double> weights) {
+double largest_weighted(std::span<const double> values, std::span<const double> weights) {
     double largest = 0;
     for (std::size_t k = 0; k < values.size(); ++k) largest = std::max(largest, weights[k] * std::abs(values[k]));
     return largest;
 }
 
 }  // namespace
+
+void ProblemScales::Given::check(std::vector<Problem>& problems) const {
+    const auto need = [&](double value, const char* key, const char* unit) {
+        if (!(value >= 0 && std::isfinite(value)))
+            problems.push_back(
+                {std::string("integrator.") + key, fmt::format("given {} {}, must be >= 0 {}", value, unit, unit)});
+    };
+    need(displacement, "displacement_scale", "m");
+    need(velocity, "velocity_scale", "m/s");
+    need(internal, "stress_scale", "Pa");
+}
 
 void ProblemScales::grow(std::size_t kind, double value) {
     const double given = std::array{given_.displacement, given_.velocity, given_.internal}[kind];
@@ -36,9 +43,9 @@ void ProblemScales::load(const SemiDiscrete& system, const std::vector<double>& 
 }
 
 void ProblemScales::include(const State& accepted) {
-    grow(0, largest_of(accepted.u));
-    grow(1, largest_of(accepted.v));
-    grow(2, largest_of(accepted.z, weights_));
+    grow(0, largest_magnitude(accepted.u));
+    grow(1, largest_magnitude(accepted.v));
+    grow(2, largest_weighted(accepted.z, weights_));
 }
 
 void ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
@@ -61,12 +68,12 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
         subtract_damping(system, state.v, f);
         for (const Constraint& constraint : system.constraints()) f[constraint.dof] = 0;
         for (std::size_t i = 0; i < f.size(); ++i) f[i] /= mass[i] * omega;
-        if (const double now = largest_of(f); now > largest) {
+        if (const double now = largest_magnitude(f); now > largest) {
             largest = now;
             velocity.swap(f);
         }
     }
-    largest = std::max({largest, largest_of(state.v), largest_of(supports)});
+    largest = std::max({largest, largest_magnitude(state.v), largest_magnitude(supports)});
     // nothing moves, nor will soon: any scale does
     if (largest == 0) largest = 1e-6 * system.smallest_length() * omega;
     grow(1, largest);
@@ -77,7 +84,7 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
     trial.v = velocity;
     trial.z = state.z;
     system.internal_rate(state, trial, rate);
-    grow(2, largest_of(rate, weights_) / omega);
+    grow(2, largest_weighted(rate, weights_) / omega);
     if (scales_[2] == 0) grow(2, 1);  // nothing strains yet: 1 Pa, until something does
 }
 

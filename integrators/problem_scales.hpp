@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/errors.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
@@ -16,12 +17,15 @@ public:
         double displacement = 0;  ///< m
         double velocity = 0;      ///< m/s
         double internal = 0;      ///< Pa, of internal variables
+
+        /// Adds what is wrong, under "integrator.".
+        void check(std::vector<Problem>& problems) const;
     };
 
     ProblemScales() = default;
     explicit ProblemScales(const Given& given) : given_(given) {}
 
-    /// Before there is motion: what the largest acceleration of the loads now, or ten periods of the fastest mode from
+    /// Before there is motion: what the largest acceleration of the loads now, or 10/omega from
     /// now, does to a single node within 1/omega. Scales that have been larger stay.
     /// @param omega         upper bound of the natural frequencies, rad/s
     /// @param supports      velocities of prescribed motion, m/s

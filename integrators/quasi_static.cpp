@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/errors.hpp"
+#include "base/largest.hpp"
 
 namespace gneiss {
 namespace {
@@ -16,12 +17,6 @@ constexpr int usual_iterations = 20;  // far from quadratic convergence after as
 constexpr long few_iterations = 4;    // a step that needs no more is followed by one twice as long
 
 void free_kinsol(void* memory) { KINFree(&memory); }
-
-double largest_of(std::span<const double> forces) {
-    double largest = 0;
-    for (const double force : forces) largest = std::max(largest, std::abs(force));
-    return largest;
-}
 
 }  // namespace
 
@@ -40,7 +35,7 @@ struct QuasiStatic::Problem {
             p.self.evaluate(p.system, p.state);
             p.self.tangent_->free().take(p.self.f_, values_of(r));
             for (double& force : values_of(r)) force = -force;
-            p.self.tell({p.self.next_.t, p.iteration, largest_of(values_of(r)) / p.self.largest_force_});
+            p.self.tell({p.self.next_.t, p.iteration, largest_magnitude(values_of(r)) / p.self.largest_force_});
         });
     }
     static int jacobian(N_Vector u, N_Vector, SUNMatrix, void* problem, N_Vector, N_Vector) {
@@ -66,8 +61,17 @@ struct QuasiStatic::Tally {
     }
 };
 
+const QuasiStatic::Options& QuasiStatic::checked(const Options& options) {
+    std::vector<::gneiss::Problem> problems;
+    options.check(problems);
+    options.solver.check(problems);
+    if (options.matrix_free) check_matrix_free(options.solver, problems);
+    if (!problems.empty()) throw InputError(problems);
+    return options;
+}
+
 QuasiStatic::QuasiStatic(const Options& options)
-    : LoadStepping(options, usual_iterations),
+    : LoadStepping(checked(options), usual_iterations),
       solver_options_(options.solver),
       matrix_free_(options.matrix_free),
       kinsol_(nullptr, free_kinsol) {}
@@ -75,6 +79,7 @@ QuasiStatic::~QuasiStatic() = default;
 
 void QuasiStatic::allocate(const SemiDiscrete& system) {
     kinsol_.reset();  // before what it refers to
+    indefinite_ = false;
     tangent_ = (matrix_free_ ? make_matrix_free_tangent : make_assembled_tangent)(system, solver_options_, context_);
     const std::size_t n = tangent_->n();
     right_.assign(n, 0.0);
@@ -131,34 +136,44 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     if (tangent_->n() == 0) return true;
     const Tally tally{*tangent_, counts_};
     predict(system, state);
-    largest_force_ = largest_of(f_);  // supports, and loads out of balance before the step
+    const double before = largest_magnitude(f_);  // supports, and loads out of balance before the step
     tangent_->free().put(values_of(unknowns_.get()), next_.u);
     evaluate(system, state);
-    largest_force_ = std::max(largest_force_, largest_of(f_));
+    largest_force_ = std::max(before, largest_magnitude(f_));
     if (largest_force_ == 0) return true;
+    long iterations = 0;
+    for (bool better = true; better;) {
+        better = iterate(system, state, iterations);
+        // The prediction of a large rotation may have asked for far larger forces than there are in the end.
+        evaluate(system, state);
+        const double acting = std::max(before, largest_magnitude(f_));
+        tangent_->free().take(f_, right_);
+        better = better && largest_magnitude(right_) > options().tolerance * acting;
+        if (better) largest_force_ = acting;
+    }
+    if (tangent_->indefinite() && !indefinite_)
+        warning_ = fmt::format(
+            "the tangent is indefinite at load time t = {:.9g} s: a limit or bifurcation point lies before it, and "
+            "beside the equilibria found from there on there are others",
+            iterations > 0 ? next_.t : state.t);
+    indefinite_ = tangent_->indefinite();
+    return iterations <= few_iterations;
+}
+
+bool QuasiStatic::iterate(const SemiDiscrete& system, const State& state, long& iterations) {
     N_VConst(1 / largest_force_, force_scale_.get());
     Problem problem{*this, system, state};
-
     KINSetUserData(kinsol_.get(), &problem);
     const int flag = KINSol(kinsol_.get(), unknowns_.get(), KIN_LINESEARCH, unknown_scale_.get(), force_scale_.get());
     KINSetUserData(kinsol_.get(), nullptr);
     problem.guarded.rethrow();
     tangent_->guard().rethrow();
-    long iterations = 0;
-    KINGetNumNonlinSolvIters(kinsol_.get(), &iterations);
-    counts_.iterations += static_cast<std::size_t>(std::max(iterations, 0L));
+    long taken = 0;
+    KINGetNumNonlinSolvIters(kinsol_.get(), &taken);
+    counts_.iterations += static_cast<std::size_t>(std::max(taken, 0L));
+    iterations += taken;
     tangent_->free().put(values_of(unknowns_.get()), next_.u);
-    const auto found = [&] {
-        const double t = iterations > 0 ? next_.t : state.t;
-        if (tangent_->indefinite() && !indefinite_)
-            warning_ = fmt::format(
-                "the tangent is indefinite at load time t = {:.9g} s: a limit or bifurcation point lies before it, and "
-                "beside the equilibria found from there on there are others",
-                t);
-        indefinite_ = tangent_->indefinite();
-        return iterations <= few_iterations;
-    };
-    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return found();
+    if (flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK) return true;
 
     const std::unique_ptr<char, void (*)(void*)> name(KINGetReturnFlagName(flag), std::free);
     const bool linear_failed = flag == KIN_LSETUP_FAIL || flag == KIN_LSOLVE_FAIL;
@@ -169,10 +184,10 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     // Where no step makes the forces smaller they have come to round-off: the end as well, if near the tolerance.
     evaluate(system, state);
     tangent_->free().take(f_, right_);
-    const double left = largest_of(right_) / largest_force_;
+    const double left = largest_magnitude(right_) / largest_force_;
     constexpr double near = 10;
     if ((flag == KIN_STEP_LT_STPTOL || flag == KIN_LINESEARCH_NONCONV) && left <= near * options().tolerance)
-        return found();
+        return false;
     throw RecoverableError(
         fmt::format("{} after {} iterations, {:.3g} of the forces out of balance{}", name.get(), iterations, left,
                     tangent_->indefinite() ? ", the tangent indefinite: near a limit or bifurcation point" : ""));

@@ -18,10 +18,11 @@ namespace gneiss {
 class QuasiStatic final : public LoadStepping {
 public:
     struct Options : LoadStepping::Options {
-        LinearSolverOptions solver;  ///< of the linear systems
-        bool matrix_free = false;    ///< pcg and gmres: products with the tangent by differences of forces
+        LinearSolverOptions solver = {};  ///< of the linear systems
+        bool matrix_free = false;         ///< pcg and gmres: products with the tangent by differences of forces
     };
 
+    /// @throws InputError
     explicit QuasiStatic(const Options& options);
     ~QuasiStatic() override;
 
@@ -32,9 +33,15 @@ private:
     struct Problem;  ///< what KINSOL is told of a load step
     struct Tally;
 
+    static const Options& checked(const Options& options);
     /// @throws InputError if the system has no tangent
     void allocate(const SemiDiscrete& system) override;
     bool solve(const SemiDiscrete& system, const State& state) override;
+    /// Newton's method from the unknowns at hand, forces measured by largest_force_.
+    /// @param[in,out] iterations  those taken are added
+    /// @return false if round-off is all that is left, so that more would not help
+    /// @throws RecoverableError
+    bool iterate(const SemiDiscrete& system, const State& state, long& iterations);
     /// The unknowns from the tangent at the last state.
     void predict(const SemiDiscrete& system, const State& state);
 

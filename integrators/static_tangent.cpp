@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <limits>
 #include <vector>
 
+#include "base/largest.hpp"
 #include "integrators/free_part.hpp"
 #include "linear/krylov.hpp"
 
@@ -79,6 +80,8 @@ public:
         last_event_ = trial.last_event;
         std::ranges::copy(trial.u, u_.begin());
         std::ranges::copy(trial.v, v_.begin());
+        const double h = system_.smallest_length();
+        length_ = h * std::sqrt(std::numeric_limits<double>::epsilon() * (1 + largest_magnitude(u_) / h));
         evaluate(u_, f_);
         tangent_of(system_).assemble_diagonal(accepted, trial, {.stiffness = 1}, inverse_diagonal_);
     }
@@ -97,7 +100,9 @@ public:
             if (definite_ && !(entry > 0))
                 throw NotPositiveDefinite(fmt::format(
                     "the matrix is not positive definite: its diagonal holds {:.3g} at node {}", entry, dof / 2 + 1));
-            inverse_diagonal_[dof] = entry != 0 ? 1 / entry : 1.0;
+            if (!(std::abs(entry) > 0))
+                throw SingularMatrix(fmt::format("the diagonal of the matrix holds {} at node {}", entry, dof / 2 + 1));
+            inverse_diagonal_[dof] = 1 / entry;
         }
     }
     void solve(std::span<const double> b, std::span<double> x) override {
@@ -126,12 +131,13 @@ public:
     }
 
 private:
-    /// Factor that makes x a displacement small enough for a difference: strains of 1e-8, with an error of as much, and
-    /// of round-off in strains of a percent over it.
+    /// Factor that makes x a displacement small enough for a difference. Moved by d, the shortest edge h strains by d/h
+    /// at most, which is the error of the difference; round-off of strains is eps (1 + |u|/h), over what x strains.
+    /// They are equal, for an x that strains the edges, at d = h sqrt(eps (1 + |u|/h)); one that is smooth over L is
+    /// worse off by L/h.
     double step(std::span<const double> x) const {
-        double largest = 0;
-        for (const double value : x) largest = std::max(largest, std::abs(value));
-        return largest > 0 ? 1e-8 * system_.smallest_length() / largest : 0.0;
+        const double largest = largest_magnitude(x);
+        return largest > 0 ? length_ / largest : 0.0;
     }
     void evaluate(std::span<const double> u, std::span<double> f) {
         system_.force(*accepted_, {t_, last_event_, u, v_, {}}, f);
@@ -145,6 +151,7 @@ private:
     // where K is taken
     const State* accepted_ = nullptr;
     double t_ = 0, last_event_ = 0;
+    double length_ = 0;  ///< of displacements in differences, m
     std::vector<double> u_, v_, f_, inverse_diagonal_;
     std::vector<double> moved_, f_moved_;
     std::size_t evaluations_ = 0;
@@ -153,33 +160,11 @@ private:
 }  // namespace
 
 StaticTangent::StaticTangent(FreeMatrix free, SUNContext context)
-    : free_(std::move(free)), matrix_(SUNMatNewEmpty(context)), linear_solver_(SUNLinSolNewEmpty(context)) {
-    if (matrix_ == nullptr || linear_solver_ == nullptr) throw std::bad_alloc();
-    matrix_->content = this;
-    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
-    matrix_->ops->zero = [](SUNMatrix) { return 0; };
+    : free_(std::move(free)), matrix_(new_matrix(this, context)), linear_solver_(new_linear_solver(this, context)) {
     matrix_->ops->matvec = [](SUNMatrix matrix, N_Vector x, N_Vector y) {
         auto& self = *static_cast<StaticTangent*>(matrix->content);
         return self.guard_([&] { self.multiply(values_of(x), values_of(y)); });
     };
-    linear_solver_->content = this;
-    linear_solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-    linear_solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
-    linear_solver_->ops->initialize = [](SUNLinearSolver) { return 0; };
-    linear_solver_->ops->setup = [](SUNLinearSolver solver, SUNMatrix) {
-        auto& self = *static_cast<StaticTangent*>(solver->content);
-        self.guard_.forget();
-        return self.guard_([&] { self.factorise(); });
-    };
-    linear_solver_->ops->solve = [](SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
-        auto& self = *static_cast<StaticTangent*>(solver->content);
-        return self.guard_([&] { self.solve(values_of(b), values_of(x)); });
-    };
-}
-
-StaticTangent::~StaticTangent() {
-    SUNMatFreeEmpty(matrix_);
-    SUNLinSolFreeEmpty(linear_solver_);
 }
 
 std::unique_ptr<StaticTangent> make_assembled_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
@@ -187,10 +172,7 @@ std::unique_ptr<StaticTangent> make_assembled_tangent(const SemiDiscrete& system
     return std::make_unique<Assembled>(system, options, context);
 }
 
-std::unique_ptr<StaticTangent> make_matrix_free_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
-                                                        SUNContext context) {
-    options.validate();
-    std::vector<Problem> problems;
+void check_matrix_free(const LinearSolverOptions& options, std::vector<Problem>& problems) {
     if (!options.iterative())
         problems.push_back({"integrator.matrix_free", fmt::format("needs solver = \"pcg\" or \"gmres\": without a "
                                                                   "matrix `{}` has nothing to factorise",
@@ -198,8 +180,13 @@ std::unique_ptr<StaticTangent> make_matrix_free_tangent(const SemiDiscrete& syst
     if (options.preconditioner != "diagonal")
         problems.push_back({"integrator.matrix_free",
                             "needs preconditioner = \"diagonal\": an incomplete factorisation needs the matrix"});
-    if (options.solver == "pcg" && !tangent_of(system).symmetric())
-        problems.push_back({"integrator.solver", "given `pcg`, but the tangent is not symmetric: take gmres"});
+}
+
+std::unique_ptr<StaticTangent> make_matrix_free_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
+                                                        SUNContext context) {
+    std::vector<Problem> problems;
+    check_matrix_free(options, problems);
+    options.check_symmetry(tangent_of(system).symmetric(), problems);
     if (!problems.empty()) throw InputError(problems);
     return std::make_unique<MatrixFree>(system, options, context);
 }

@@ -18,7 +18,7 @@ class StaticTangent {
 public:
     StaticTangent(const StaticTangent&) = delete;
     StaticTangent& operator=(const StaticTangent&) = delete;
-    virtual ~StaticTangent();
+    virtual ~StaticTangent() = default;
 
     const FreeMatrix& free() const { return free_; }
     std::size_t n() const { return free_.n(); }
@@ -44,8 +44,12 @@ public:
     virtual double bytes() const = 0;                      ///< of memory, factors expected
 
     // The same as SUNDIALS takes it; set-up is factorise(). Exceptions wait in guard().
-    SUNMatrix matrix() const { return matrix_; }
-    SUNLinearSolver linear_solver() const { return linear_solver_; }
+    SUNMatrix matrix() const { return matrix_.get(); }
+    SUNLinearSolver linear_solver() const { return linear_solver_.get(); }
+    void set_up() {
+        guard_.forget();
+        factorise();
+    }
     CallbackGuard& guard() { return guard_; }
 
 protected:
@@ -54,16 +58,18 @@ protected:
     FreeMatrix free_;
 
 private:
-    SUNMatrix matrix_;
-    SUNLinearSolver linear_solver_;
+    OwnedMatrix matrix_;
+    OwnedLinearSolver linear_solver_;
     CallbackGuard guard_;
 };
 
 /// @throws InputError if the system has no tangent, or the solver does not go with it
 std::unique_ptr<StaticTangent> make_assembled_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
                                                       SUNContext context);
-/// Products with K are differences of forces, the preconditioner is the diagonal: no memory beyond a few vectors, and a
-/// force evaluation for each iteration.
+/// Adds what does not go without a matrix.
+void check_matrix_free(const LinearSolverOptions& options, std::vector<Problem>& problems);
+/// Products with K are differences of forces, good to seven digits or so, the preconditioner is the diagonal: no memory
+/// beyond a few vectors, and a force evaluation for each iteration.
 /// @throws InputError for other solvers than pcg and gmres, other preconditioners than the diagonal, and as above
 std::unique_ptr<StaticTangent> make_matrix_free_tangent(const SemiDiscrete& system, const LinearSolverOptions& options,
                                                         SUNContext context);

@@ -1,6 +1,6 @@
 #pragma once
-// What SUNDIALS works with, owned by C++: contexts, vectors over our arrays, and a matrix and a linear solver of ours
-// behind its interfaces.
+// What SUNDIALS works with, owned by C++: contexts, vectors over our arrays, and shells behind which matrices and
+// linear solvers of ours stand.
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
@@ -33,6 +33,48 @@ inline OwnedVector new_vector(std::size_t n, SUNContext context) {
     OwnedVector vector(N_VNew_Serial(static_cast<sunindextype>(n), context));
     if (!vector) throw std::bad_alloc();
     return vector;
+}
+
+struct MatrixDeleter {
+    void operator()(SUNMatrix matrix) const { SUNMatFreeEmpty(matrix); }
+};
+using OwnedMatrix = std::unique_ptr<_generic_SUNMatrix, MatrixDeleter>;
+
+/// A matrix that SUNDIALS hands on and looks at no further.
+/// @param owner  its content, which has to outlive it
+inline OwnedMatrix new_matrix(void* owner, SUNContext context) {
+    OwnedMatrix matrix(SUNMatNewEmpty(context));
+    if (!matrix) throw std::bad_alloc();
+    matrix->content = owner;
+    matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    matrix->ops->zero = [](SUNMatrix) { return 0; };
+    return matrix;
+}
+
+struct LinearSolverDeleter {
+    void operator()(SUNLinearSolver solver) const { SUNLinSolFreeEmpty(solver); }
+};
+using OwnedLinearSolver = std::unique_ptr<_generic_SUNLinearSolver, LinearSolverDeleter>;
+
+/// A direct solver.
+/// @param owner  set_up() and solve(b, x) are called on it; their exceptions wait in its guard(); has to outlive it
+template <class Owner>
+OwnedLinearSolver new_linear_solver(Owner* owner, SUNContext context) {
+    OwnedLinearSolver solver(SUNLinSolNewEmpty(context));
+    if (!solver) throw std::bad_alloc();
+    solver->content = owner;
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    solver->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+    solver->ops->initialize = [](SUNLinearSolver) { return 0; };
+    solver->ops->setup = [](SUNLinearSolver self, SUNMatrix) {
+        auto& of = *static_cast<Owner*>(self->content);
+        return of.guard()([&] { of.set_up(); });
+    };
+    solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+        auto& of = *static_cast<Owner*>(self->content);
+        return of.guard()([&] { of.solve(values_of(b), values_of(x)); });
+    };
+    return solver;
 }
 
 struct NonlinearSolverDeleter {

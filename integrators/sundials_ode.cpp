@@ -17,12 +17,8 @@ void SundialsOde::Options::check(std::vector<Problem>& problems) const {
     };
     need(rtol > 0 && rtol <= 0.1, "rtol", fmt::format("given {}, must be in (0, 0.1]", rtol));
     need(longest >= 0 && std::isfinite(longest), "longest", fmt::format("given {} s, must be >= 0 s", longest));
-    const auto scale = [&](double value, const char* key, const char* unit) {
-        need(value >= 0 && std::isfinite(value), key, fmt::format("given {} {}, must be >= 0 {}", value, unit, unit));
-    };
-    scale(scales.displacement, "displacement_scale", "m");
-    scale(scales.velocity, "velocity_scale", "m/s");
-    scale(scales.internal, "stress_scale", "Pa");
+    scales.check(problems);
+    solver.check(problems);
 }
 
 SundialsOde::SundialsOde(const Options& options, bool needs_newton)
@@ -55,7 +51,11 @@ void SundialsOde::allocate(const SemiDiscrete& system) {
 
 void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
-    if (why == StartReason::fresh) omega_ = system.frequency_bound(state).omega;
+    if (why == StartReason::fresh) {
+        omega_ = system.frequency_bound(state).omega;
+        scales_ = ProblemScales(options_.scales);
+        counts_ = {};
+    }
     if (anew) allocate(system);
     form_.motion().hold(system, state, why);
     scales_.start(system, state, omega_, form_.motion().velocity());

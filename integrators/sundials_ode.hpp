@@ -56,7 +56,7 @@ protected:
     /// Its past is forgotten; y() has jumped or not.
     virtual void restart(double t) = 0;
     /// One step into y().
-    /// @param dt  chosen by steps_to(), where steps are fixed
+    /// @param dt  of a fixed step, s; 0: chosen by the solver
     /// @param[out] t  time reached
     virtual int step(double dt, double t_stop, double& t) = 0;
     /// The solution at a time within the last step, into `at`.

@@ -20,6 +20,7 @@ struct Case {
     std::unique_ptr<SolidSystem> system;
     std::unique_ptr<Integrator> integrator;
     ProbeTable probes;
+    ReactionTable reactions;
 };
 
 /// @throws InputError with everything that is wrong with the mesh, or else with what the deck puts on it

@@ -1,5 +1,7 @@
 #include "app/make_integrator.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "integrators/arkode.hpp"
@@ -12,6 +14,10 @@
 
 namespace gneiss {
 namespace {
+
+bool is_alpha(const IntegratorOptions& o) {
+    return o.type == "generalized_alpha" || o.type == "newmark" || o.type == "hht_alpha";
+}
 
 ProblemScales::Given scales(const IntegratorOptions& o) {
     return {o.displacement_scale, o.velocity_scale, o.stress_scale};
@@ -78,15 +84,44 @@ std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
     return std::make_unique<Ida>(options);
 }
 
+/// Keys that a deck's own conditions cannot tell to be idle: given, if they differ from their default.
+void refuse_idle_keys(const IntegratorOptions& o) {
+    const IntegratorOptions usual;
+    std::vector<Problem> problems;
+    const auto idle = [&](bool given, const char* key, const std::string& reason) {
+        if (given) problems.push_back({std::string("integrator.") + key, "has no effect: " + reason});
+    };
+    if (is_alpha(o) && !o.adaptive) {
+        const std::string fixed = "steps are fixed without `adaptive = true`";
+        idle(o.rtol != usual.rtol, "rtol", fixed);
+        idle(o.displacement_scale != usual.displacement_scale, "displacement_scale", fixed);
+        idle(o.longest != usual.longest, "longest", fixed);
+    }
+    const auto idle_solver = [&](const std::string& reason) {
+        idle(o.solver != usual.solver, "solver", reason + ", no linear systems are solved");
+    };
+    if (o.type == "cvode" && o.functional) idle_solver("with iteration = \"functional\"");
+    if (o.type == "arkode" && Arkode::is_explicit(o.table)) idle_solver(fmt::format("with table = \"{}\"", o.table));
+    if (!problems.empty()) throw InputError(problems);
+}
+
 }  // namespace
 
+void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system) {
+    if (o.solver == IntegratorOptions().solver) return;
+    std::vector<Problem> problems;
+    linear_solver(o).check_symmetry(system.tangent()->symmetric(), problems);
+    if (!problems.empty()) throw InputError(problems);
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
+    refuse_idle_keys(o);
     if (o.type == "central_difference")
         return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
     if (o.type == "quasi_static")
         return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), linear_solver(o), o.matrix_free});
     if (o.type == "dynamic_relaxation") return std::make_unique<DynamicRelaxation>(load_steps(o));
-    if (o.type == "generalized_alpha" || o.type == "newmark" || o.type == "hht_alpha") return make_alpha(o);
+    if (is_alpha(o)) return make_alpha(o);
     if (o.type == "cvode") return make_cvode(o);
     if (o.type == "arkode") return make_arkode(o);
     if (o.type == "ida") return make_ida(o);

@@ -8,7 +8,10 @@
 
 namespace gneiss {
 
-/// @throws InputError with every option out of its range
+/// @throws InputError with every option out of its range, or without effect beside the others
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options);
+
+/// @throws InputError if the linear solver cannot take the system's tangents
+void check_linear_solver(const IntegratorOptions& options, const SemiDiscrete& system);
 
 }  // namespace gneiss

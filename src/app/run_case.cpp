@@ -54,7 +54,7 @@ private:
     void write_rows(double dt);
     template <class Body>
     void for_each_table(Body body) {
-        for (auto* table : {&history_file_, &probes_file_, &steps_file_})
+        for (auto* table : {&history_file_, &probes_file_, &reactions_file_, &steps_file_})
             if (*table) body(**table);
     }
     void write_frame() { frames_->write(*case_.system, state_, progress_.step); }
@@ -62,6 +62,7 @@ private:
     void write_summary_file(RunStatus status, const std::string& message = "");
     int end(RunStatus status, const std::string& message, int code);
     int end_failed(const std::exception& error);
+    int end_out_of_memory();
     ProgressState progress_state() const;
 
     RunArguments arguments_;
@@ -81,7 +82,7 @@ private:
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
     std::optional<Schedule> schedule_;
-    std::optional<CsvSeries> history_file_, probes_file_, steps_file_;
+    std::optional<CsvSeries> history_file_, probes_file_, reactions_file_, steps_file_;
     std::optional<FieldFrames> frames_;
     std::optional<Progress> bar_;
 };
@@ -120,7 +121,7 @@ void Run::open_results() {
     make_folder(out_);
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)
-        for (const char* name : {"checkpoint.h5", "probes.csv", "load_steps.csv", "summary.json"})
+        for (const char* name : {"checkpoint.h5", "probes.csv", "reactions.csv", "load_steps.csv", "summary.json"})
             fs::remove(out_ / name);
     log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
     log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
@@ -136,6 +137,8 @@ void Run::open_results() {
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
     history_file_.emplace(out_ / "history.csv", history_columns(), restart_time);
     if (!case_.probes.empty()) probes_file_.emplace(out_ / "probes.csv", case_.probes.columns(), restart_time);
+    if (!case_.reactions.empty())
+        reactions_file_.emplace(out_ / "reactions.csv", case_.reactions.columns(), restart_time);
     if (!case_.integrator->step_columns().empty())
         steps_file_.emplace(out_ / "load_steps.csv", step_columns(*case_.integrator), restart_time);
     frames_.emplace(out_, case_.mesh, restart_time);
@@ -167,6 +170,7 @@ void Run::write_rows(double dt) {
     balance_error_ = energies.balance_error();
     history_file_->row(history_row(state_.t, progress_.step, dt, energies));
     if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state_));
+    if (reactions_file_) reactions_file_->row(case_.reactions.row(state_.t, case_.integrator->reactions()));
 }
 
 void Run::write_checkpoint() {
@@ -251,6 +255,19 @@ int Run::end_failed(const std::exception& error) {
     return end(RunStatus::failed, message, exit_code::failed);
 }
 
+int Run::end_out_of_memory() {
+    if (!begun_) {
+        const std::string message = "out of memory before the first step: take a smaller mesh, or another solver";
+        log_->error("{}", message);
+        write_summary_file(RunStatus::failed, message);
+        return exit_code::failed;
+    }
+    const double matrices = case_.integrator->matrix_bytes();
+    return end_failed(RecoverableError(
+        "out of memory" +
+        (matrices > 0 ? fmt::format(": matrices and their factors need some {:.0f} MB", 1e-6 * matrices) : "")));
+}
+
 int Run::march() {
     March march;
     march.t_end = case_.options.run.t_end;
@@ -268,7 +285,10 @@ int Run::march() {
     } catch (const RecoverableError& error) {
         return end_failed(error);
     } catch (const InputError& error) {
+        if (!begun_) throw;
         return end_failed(error);  // a formula that has no value at this time, say
+    } catch (const std::bad_alloc&) {
+        return end_out_of_memory();
     } catch (const std::exception& error) {
         // A full disk, say: nothing more may be written, except for why, if that still goes.
         try {

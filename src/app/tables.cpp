@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <map>
 
 #include "base/errors.hpp"
+#include "model/mesh_names.hpp"
 
 namespace gneiss {
 
@@ -88,6 +90,39 @@ std::vector<CsvColumn> ProbeTable::columns() const {
         for (const char* name : {"sigma_rr", "sigma_tt", "sigma_rt"}) add(name, "Pa");
     }
     return columns;
+}
+
+ReactionTable::ReactionTable(const Mesh& mesh, const std::vector<BoundaryOptions>& boundaries,
+                             std::span<const Constraint> constraints)
+    : column_of_(constraints.size()) {
+    std::map<std::size_t, std::size_t> column_of_dof;
+    std::map<std::string, std::size_t> column_of_name;
+    for (const BoundaryOptions& boundary : boundaries) {
+        if (boundary.kind == BoundaryOptions::Kind::absorbing) continue;
+        const std::vector<std::int32_t> nodes = nodes_named(mesh, boundary.on);
+        for (std::size_t component = 0; component < 2; ++component) {
+            if (!boundary.value[component]) continue;
+            const std::string name = boundary.on + (component == 0 ? ".R_x" : ".R_y");
+            const auto [column, is_new] = column_of_name.try_emplace(name, columns_.size());
+            if (is_new) columns_.push_back({name, "N"});
+            for (const std::int32_t node : nodes)
+                column_of_dof.try_emplace(2 * static_cast<std::size_t>(node) + component, column->second);
+        }
+    }
+    for (std::size_t k = 0; k < constraints.size(); ++k) column_of_[k] = column_of_dof.at(constraints[k].dof);
+}
+
+std::vector<CsvColumn> ReactionTable::columns() const {
+    std::vector<CsvColumn> columns{{"t", "s"}};
+    columns.insert(columns.end(), columns_.begin(), columns_.end());
+    return columns;
+}
+
+std::vector<double> ReactionTable::row(double t, std::span<const double> reactions) const {
+    std::vector<double> row(columns_.size() + 1, 0.0);
+    row[0] = t;
+    for (std::size_t k = 0; k < reactions.size(); ++k) row[column_of_[k] + 1] += reactions[k];
+    return row;
 }
 
 std::vector<double> ProbeTable::row(const SolidSystem& system, const State& state) const {

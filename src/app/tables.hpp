@@ -1,6 +1,7 @@
 #pragma once
-// What history.csv, probes.csv and load_steps.csv hold: columns and rows.
+// What history.csv, probes.csv, reactions.csv and load_steps.csv hold: columns and rows.
 
+#include <span>
 #include <vector>
 
 #include "io/output/csv_series.hpp"
@@ -45,6 +46,26 @@ private:
         std::array<double, 2> direction;  ///< r, unit vector
     };
     std::vector<Probe> probes_;
+};
+
+/// Forces of supports, summed over each boundary with prescribed motion.
+class ReactionTable {
+public:
+    ReactionTable() = default;
+    /// @param constraints  those that `boundaries` make of the mesh, see make_constraints()
+    ReactionTable(const Mesh& mesh, const std::vector<BoundaryOptions>& boundaries,
+                  std::span<const Constraint> constraints);
+
+    bool empty() const { return columns_.empty(); }
+    /// Columns: t, then R_x and R_y of each name in the order of the deck, where they are prescribed. A degree of
+    /// freedom that two names share belongs to the first: the columns add up to all there is.
+    std::vector<CsvColumn> columns() const;
+    /// @param reactions  N, shape (constraints)
+    std::vector<double> row(double t, std::span<const double> reactions) const;
+
+private:
+    std::vector<CsvColumn> columns_;
+    std::vector<std::size_t> column_of_;  ///< shape (constraints)
 };
 
 }  // namespace gneiss

@@ -2,6 +2,8 @@
 #include <klu.h>
 #include <algorithm>
 #include <new>
+#include <span>
+#include <vector>
 
 #include "linear/linear_solver.hpp"
 #include "linear/ordering.hpp"
@@ -62,6 +64,13 @@ public:
 
     void forget() override { klu_l_free_numeric(&numeric_, &common_); }
 
+    /// A negative determinant: an odd number of negative eigenvalues.
+    bool indefinite() const override {
+        const std::span pivots(static_cast<const double*>(numeric_->Udiag), pattern_.n());
+        const bool odd_pivots = std::ranges::count_if(pivots, [](double pivot) { return pivot < 0; }) % 2 == 1;
+        return odd_pivots != (odd({numeric_->Pnum, pattern_.n()}) != odd({symbolic_->Q, pattern_.n()}));
+    }
+
     std::size_t factor_bytes() const override {
         return static_cast<std::size_t>(bytes(static_cast<double>(numeric_->lnz + numeric_->unz)));
     }
@@ -69,6 +78,20 @@ public:
     double expected_factor_bytes() const override { return bytes(symbolic_->lnz + symbolic_->unz); }
 
 private:
+    /// Whether a permutation is made of an odd number of exchanges.
+    static bool odd(std::span<const SuiteSparse_long> permutation) {
+        std::vector<bool> seen(permutation.size(), false);
+        std::size_t exchanges = 0;  // one less in each cycle than it has members
+        for (std::size_t start = 0; start < permutation.size(); ++start) {
+            if (seen[start]) continue;
+            for (std::size_t i = start; !seen[i]; i = static_cast<std::size_t>(permutation[i])) {
+                seen[i] = true;
+                ++exchanges;
+            }
+            --exchanges;
+        }
+        return exchanges % 2 == 1;
+    }
     double bytes(double entries) const {
         return entries * static_cast<double>(sizeof(double) + sizeof(SuiteSparse_long)) +
                static_cast<double>(pattern_.n() * 10 * sizeof(double));

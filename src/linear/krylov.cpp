@@ -34,6 +34,7 @@ struct Krylov::Sundials {
     const Product* multiply = nullptr;
     const Product* precondition = nullptr;
     bool definite = false;  ///< wanted
+    std::size_t kept = 1;   ///< iterations between restarts; 1 without
     std::exception_ptr failure;
 
     ~Sundials() {
@@ -83,10 +84,8 @@ Krylov::Krylov(Method method, std::size_t n, const Options& options)
         s.solver = SUNLinSol_PCG(s.x_vector, SUN_PREC_BOTH, static_cast<int>(options.most_iterations), s.context);
         s.definite = true;
     } else {
-        const std::size_t kept = std::max<std::size_t>(std::min({options.restart, options.most_iterations, n}), 1);
-        s.solver = SUNLinSol_SPGMR(s.x_vector, SUN_PREC_RIGHT, static_cast<int>(kept), s.context);
-        if (s.solver != nullptr)
-            SUNLinSol_SPGMRSetMaxRestarts(s.solver, static_cast<int>((options.most_iterations - 1) / kept));
+        s.kept = std::max<std::size_t>(std::min({options.restart, options.most_iterations, n}), 1);
+        s.solver = SUNLinSol_SPGMR(s.x_vector, SUN_PREC_RIGHT, static_cast<int>(s.kept), s.context);
     }
     if (s.solver == nullptr) throw std::bad_alloc();
     SUNLinSolSetATimes(s.solver, &s, Sundials::times);
@@ -103,6 +102,7 @@ void Krylov::solve(const Product& multiply, const Product& precondition, std::sp
     std::ranges::copy(b, s.b.begin());
     std::ranges::fill(s.solution, 0.0);
     const double size = std::sqrt(N_VDotProd(s.b_vector, s.b_vector));
+    if (!std::isfinite(size)) throw RecoverableError("the right side is not finite");
     s.multiply = &multiply;
     s.precondition = &precondition;
     const std::size_t before = iterations_;
@@ -126,6 +126,18 @@ void Krylov::solve(const Product& multiply, const Product& precondition, std::sp
 
 void Krylov::iterate(double size, std::size_t spent) {
     Sundials& s = *sundials_;
+    const auto give_up = [&](double left, std::size_t iterations) {
+        throw RecoverableError(fmt::format(
+            "{} is left with {:.3g} of the right side after {} iterations, asked for {:.3g}: take a larger tolerance, "
+            "more iterations, another preconditioner or a direct solver",
+            name(), left / size, iterations, options_.tolerance));
+    };
+    const std::size_t more = options_.most_iterations - spent;
+    if (more < s.kept) give_up(std::sqrt(N_VDotProd(s.b_vector, s.b_vector)), spent);
+    if (method_ == Method::pcg)
+        SUNLinSol_PCGSetMaxl(s.solver, static_cast<int>(more));
+    else
+        SUNLinSol_SPGMRSetMaxRestarts(s.solver, static_cast<int>(more / s.kept - 1));
     std::ranges::fill(s.x, 0.0);
     SUNLinSolSetZeroGuess(s.solver, SUNTRUE);
     SUNLinSolSetup(s.solver, nullptr);
@@ -133,11 +145,7 @@ void Krylov::iterate(double size, std::size_t spent) {
     const auto taken = static_cast<std::size_t>(SUNLinSolNumIters(s.solver));
     iterations_ += taken;
     if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
-    if (flag != SUNLS_SUCCESS)
-        throw RecoverableError(fmt::format(
-            "{} is left with {:.3g} of the right side after {} iterations, asked for {:.3g}: take a larger tolerance, "
-            "more iterations, another preconditioner or a direct solver",
-            name(), SUNLinSolResNorm(s.solver) / size, spent + taken, options_.tolerance));
+    if (flag != SUNLS_SUCCESS) give_up(SUNLinSolResNorm(s.solver), spent + taken);
 }
 
 std::size_t Krylov::bytes() const {

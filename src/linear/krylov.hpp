@@ -17,7 +17,7 @@ public:
     };
     struct Options {
         double tolerance = 1e-8;              ///< residual over right side, Euclidean norms, (0, 0.1]
-        std::size_t most_iterations = 10000;  ///< of one solve, >= 1
+        std::size_t most_iterations = 10000;  ///< of one solve, >= 1; GMRES rounds it down to whole restarts
         bool exact = true;                    ///< the products are, so that residuals can be told by them
         std::size_t restart = 50;             ///< vectors that GMRES keeps, >= 1
     };

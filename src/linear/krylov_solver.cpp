@@ -21,7 +21,7 @@ public:
     virtual ~Preconditioner() = default;
     virtual void compute(const Eigen::Map<const Rows>& a) = 0;
     virtual void apply(std::span<const double> r, std::span<double> z) const = 0;
-    virtual std::size_t bytes() const = 0;
+    virtual std::size_t bytes(const SparsePattern& pattern) const = 0;  ///< once computed
 };
 
 class Diagonal final : public Preconditioner {
@@ -42,7 +42,7 @@ public:
     void apply(std::span<const double> r, std::span<double> z) const override {
         as_vector(z) = inverse_.cwiseProduct(as_vector(r));
     }
-    std::size_t bytes() const override { return static_cast<std::size_t>(inverse_.size()) * sizeof(double); }
+    std::size_t bytes(const SparsePattern& pattern) const override { return pattern.n() * sizeof(double); }
 
 private:
     bool positive_;
@@ -61,8 +61,8 @@ public:
     void apply(std::span<const double> r, std::span<double> z) const override {
         as_vector(z) = factor_.solve(as_vector(r));
     }
-    std::size_t bytes() const override {
-        return static_cast<std::size_t>(factor_.matrixL().nonZeros()) * (sizeof(double) + sizeof(std::int64_t));
+    std::size_t bytes(const SparsePattern& pattern) const override {
+        return (pattern.n_nonzero() + pattern.n()) / 2 * (sizeof(double) + sizeof(std::int64_t));
     }
 
 private:
@@ -77,7 +77,6 @@ public:
         factor_.setFillfactor(fill);
     }
     void compute(const Eigen::Map<const Rows>& a) override {
-        n_nonzero_ = static_cast<std::size_t>(a.nonZeros());
         factor_.compute(a);
         if (factor_.info() != Eigen::Success)
             throw SingularMatrix("there is no incomplete factorisation of the matrix");
@@ -85,12 +84,14 @@ public:
     void apply(std::span<const double> r, std::span<double> z) const override {
         as_vector(z) = factor_.solve(as_vector(r));
     }
-    std::size_t bytes() const override { return fill * n_nonzero_ * (sizeof(double) + sizeof(std::int64_t)); }
+    /// At most.
+    std::size_t bytes(const SparsePattern& pattern) const override {
+        return fill * pattern.n_nonzero() * (sizeof(double) + sizeof(std::int64_t));
+    }
 
 private:
     static constexpr int fill = 2;  ///< entries of the factors per entry of the matrix, at most
     Eigen::IncompleteLUT<double, std::int64_t> factor_;
-    std::size_t n_nonzero_ = 0;
 };
 
 class KrylovSolver final : public LinearSolver {
@@ -129,7 +130,8 @@ public:
     }
 
     std::size_t iterations() const override { return krylov_ ? krylov_->iterations() : 0; }
-    std::size_t factor_bytes() const override { return preconditioner_->bytes() + krylov_->bytes(); }
+    std::size_t factor_bytes() const override { return preconditioner_->bytes(pattern_) + krylov_->bytes(); }
+    double expected_factor_bytes() const override { return static_cast<double>(factor_bytes()); }
 
 private:
     Krylov::Method method_;

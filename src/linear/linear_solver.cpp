@@ -68,8 +68,7 @@ private:
 
 }  // namespace
 
-void LinearSolverOptions::validate() const {
-    std::vector<Problem> problems;
+void LinearSolverOptions::check(std::vector<Problem>& problems) const {
     const auto need = [&](bool fine, const char* key, const std::string& message) {
         if (!fine) problems.push_back({std::string("integrator.") + key, message});
     };
@@ -81,16 +80,21 @@ void LinearSolverOptions::validate() const {
     need(tolerance > 0 && tolerance <= 0.1, "linear_tolerance",
          fmt::format("given {}, must be in (0, 0.1]", tolerance));
     need(most_iterations >= 1, "most_linear_iterations", fmt::format("given {}, must be >= 1", most_iterations));
-    if (!problems.empty()) throw InputError(problems);
+}
+
+void LinearSolverOptions::check_symmetry(bool symmetric, std::vector<Problem>& problems) const {
+    if (!symmetric && (solver == "cholmod" || solver == "pcg"))
+        problems.push_back({"integrator.solver",
+                            fmt::format("given `{}`, but the tangent is not symmetric: take {}", solver,
+                                        solver == "pcg" ? "gmres or a direct solver" : "umfpack, klu or automatic")});
 }
 
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, bool symmetric) {
-    options.validate();
+    std::vector<Problem> problems;
+    options.check(problems);
+    options.check_symmetry(symmetric, problems);
+    if (!problems.empty()) throw InputError(problems);
     const std::string& name = options.solver;
-    if (!symmetric && (name == "cholmod" || name == "pcg"))
-        throw InputError("integrator.solver",
-                         fmt::format("given `{}`, but the tangent is not symmetric: take {}", name,
-                                     name == "pcg" ? "gmres or a direct solver" : "umfpack, klu or automatic"));
     if (name == "automatic" && symmetric) return std::make_unique<SymmetricSolver>();
     if (name == "cholmod") return make_cholmod();
     if (name == "klu") return make_klu();

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 
@@ -65,7 +66,8 @@ public:
     virtual double expected_factor_bytes() const { return 0; }
     /// Of an iterative solver, in all solves so far.
     virtual std::size_t iterations() const { return 0; }
-    /// Whether the last matrix factorised is known to have a negative eigenvalue.
+    /// Whether the last matrix factorised is known to have a negative eigenvalue: CHOLMOD tells all, KLU and UMFPACK an
+    /// odd number of them, iterative solvers none.
     virtual bool indefinite() const { return false; }
 };
 
@@ -90,8 +92,10 @@ struct LinearSolverOptions {
     LinearSolverOptions(const char* name) : solver(name) {}             // NOLINT
 
     bool iterative() const { return solver == "pcg" || solver == "gmres"; }
-    /// @throws InputError
-    void validate() const;
+    /// Adds what is wrong, under "integrator.".
+    void check(std::vector<Problem>& problems) const;
+    /// Adds what does not go with matrices that are symmetric or not.
+    void check_symmetry(bool symmetric, std::vector<Problem>& problems) const;
 };
 
 /// Conjugate gradients, by SUNDIALS, preconditioned with the diagonal or with L L^T of the matrix's own sparsity.

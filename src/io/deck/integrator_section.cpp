@@ -13,6 +13,7 @@ const Section<IntegratorOptions>& integrator_section() {
         statics{{"type", {"quasi_static", "dynamic_relaxation"}}},
         alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}}, multistep{{"type", {"cvode", "ida"}}},
         stepped{{"type", {"central_difference", "generalized_alpha", "newmark", "hht_alpha", "arkode"}}},
+        first_order{{"type", {"cvode", "arkode", "ida"}}},
         controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}},
         balanced{{"type", {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha"}}},
         limited{{"type",
@@ -68,11 +69,11 @@ const Section<IntegratorOptions>& integrator_section() {
                  .only_for = controlled,
                  .meaning = "what errors of displacement are measured against; 0: the largest so far"}),
          number("velocity_scale", &I::velocity_scale,
-                {.unit = "m/s", .range = at_least(0), .only_for = controlled, .meaning = "the same of velocity"}),
+                {.unit = "m/s", .range = at_least(0), .only_for = first_order, .meaning = "the same of velocity"}),
          number("stress_scale", &I::stress_scale,
                 {.unit = "Pa",
                  .range = at_least(0),
-                 .only_for = controlled,
+                 .only_for = first_order,
                  .meaning = "the same of the stresses that hypo-elastic materials carry"}),
          number("tolerance", &I::tolerance,
                 {.range = half_open(0, 0.01),
@@ -101,12 +102,12 @@ const Section<IntegratorOptions>& integrator_section() {
                  .only_for = iterative,
                  .meaning = "residual over right side, Euclidean norms"}),
          integer("most_linear_iterations", &I::most_linear_iterations,
-                 {.range = at_least(1), .only_for = iterative, .meaning = "in one linear system"}),
+                 {.range = at_least(1), .only_for = iterative, .meaning = "in one linear system, at which it fails"}),
          boolean(
              "matrix_free", &I::matrix_free,
              {.only_for = {{"type", {"quasi_static"}}},
               .meaning = "pcg and gmres with the diagonal as preconditioner: no matrix is kept, products with it are "
-                         "differences of forces"})}};
+                         "differences of forces, good to seven digits or so"})}};
     return section;
 }
 

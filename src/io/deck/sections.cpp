@@ -219,7 +219,8 @@ const Section<OutputOptions>& output_section() {
          number("history", &O::history,
                 {.unit = "s",
                  .range = at_least(0),
-                 .meaning = "simulated time between rows of history.csv and probes.csv; 0: 1000 rows over the run"}),
+                 .meaning = "simulated time between rows of history.csv, probes.csv and reactions.csv; 0: 1000 rows "
+                            "over the run"}),
          tables("probes", &O::probes, probe_section, {.meaning = "points that are watched"})},
         check_output};
     return section;

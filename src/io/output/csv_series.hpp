@@ -1,5 +1,5 @@
 #pragma once
-// Numbers against time, one row per time: history.csv, probes.csv, load_steps.csv.
+// Numbers against time, one row per time: history.csv, probes.csv, reactions.csv, load_steps.csv.
 
 #include <chrono>
 #include <filesystem>

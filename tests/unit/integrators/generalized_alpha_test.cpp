@@ -73,6 +73,49 @@ TEST(GeneralizedAlpha, LinearProblemWithEqualSteps_FactorisesOnce) {
     integrator.start(system, state, StartReason::fresh);
     for (int step = 0; step < 16; ++step) integrator.advance(system, state, state.t + 0.125);
     EXPECT_EQ(integrator.counts().factorisations, 1u);
+    // an interval that no number of such steps fills without round-off
+    const double t_stop = state.t + 100;
+    GeneralizedAlpha uneven(with(Scheme::chung_hulbert(0.8), 0.1));
+    uneven.start(system, state, StartReason::fresh);
+    while (state.t < t_stop) uneven.advance(system, state, t_stop);
+    EXPECT_EQ(uneven.counts().factorisations, 1u);
+}
+
+TEST(GeneralizedAlpha, OneForceThatFails_WhereverInTheStep_ShortensIt) {
+    for (int n = 0; n < 4; ++n) {
+        test::Oscillator system = one_mass(3);
+        GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.125));
+        State state = system.initial_state();
+        integrator.start(system, state, StartReason::fresh);
+        const std::size_t before = integrator.counts().evaluations;
+        system.fail_after(n);
+        const StepReport step = integrator.advance(system, state, 1);
+        // the stage is evaluated twice, before and after its one correction, and the end of the step once
+        const std::size_t evaluations = integrator.counts().evaluations - before;
+        EXPECT_EQ(step.n_rejected, n < 3 ? 1u : 0u) << n << " of " << evaluations;
+        EXPECT_EQ(step.t, n < 3 ? 0.0625 : 0.125);
+    }
+}
+
+TEST(GeneralizedAlpha, ForceThatIsNoNumber_FailsTheStep) {
+    test::OscillatorModel model = one_mass(3).model();
+    model.load = [](double t, bool) { return test::Vector{{t > 0.5 ? std::nan("") : 0.0, 0}}; };
+    const test::Oscillator system(model);
+    GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.125));
+    State state = system.initial_state();
+    integrator.start(system, state, StartReason::fresh);
+    EXPECT_THROW(
+        {
+            while (state.t < 1) integrator.advance(system, state, 1);
+        },
+        RecoverableError);
+    EXPECT_LE(state.t, 0.5 + 0.125);
+}
+
+TEST(GeneralizedAlpha, AdaptiveStepsOfOrderOne_AreRefused) {
+    GeneralizedAlpha::Options options = with(Scheme::newmark(0.3025, 0.6), 0);
+    options.rtol = 1e-4;
+    EXPECT_THROW(GeneralizedAlpha{options}, InputError);
 }
 
 TEST(GeneralizedAlpha, Schemes_HaveThePublishedNumbers) {

@@ -119,6 +119,13 @@ const AdaptiveScheme adaptive_schemes[] = {
          options.rtol = rtol;
          return std::make_unique<GeneralizedAlpha>(options);
      }},
+    {"Hht",
+     [](double rtol) {
+         GeneralizedAlpha::Options options;
+         options.scheme = GeneralizedAlpha::Scheme::hht(0.2);
+         options.rtol = rtol;
+         return std::make_unique<GeneralizedAlpha>(options);
+     }},
     {"CvodeBdf", [](double rtol) { return sundials<Cvode>({}, rtol); }},
     {"CvodeBdfOfOrderTwo",
      [](double rtol) {
@@ -250,6 +257,17 @@ TEST_P(AnyIntegrator, SupportsAndLoads_BalanceAgainstTheEnergy) {
     EXPECT_GT(std::abs(path.support_work), 0.1);
     // of order 2 the error of the solution itself, 21-fold for a hundredth of the tolerance, is the largest
     EXPECT_NEAR(energy() - before, supplied, 2e-6 * (std::abs(path.external_work) + std::abs(path.support_work)));
+}
+
+TEST_P(AnyIntegrator, StartedAfresh_TakesTheSameSteps) {
+    const Oscillator system(test::two_nodes());
+    const Made integrator = GetParam().make(1e-6);
+    State once = system.initial_state(), again = once;
+    for (State* state : {&once, &again}) {
+        integrator->start(system, *state, StartReason::fresh);
+        for (int step = 0; step < 20; ++step) integrator->advance(system, *state, 2);
+    }
+    EXPECT_EQ(once, again);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, AnyIntegrator, testing::ValuesIn(adaptive_schemes),

@@ -121,6 +121,34 @@ TYPED_TEST(StaticIntegrator, EverythingPrescribed_FollowsTheMotion) {
         EXPECT_DOUBLE_EQ(found.state.u[2 * node], 0.1 * x);
         EXPECT_DOUBLE_EQ(found.state.u[2 * node + 1], -0.05 * y * y);
     }
+    EXPECT_LT(integrator.matrix_bytes(), 1e5) << "there is nothing to solve for";
+}
+
+TYPED_TEST(StaticIntegrator, PrescribedVelocity_IsIntegratedWhateverTheLoadSteps) {
+    test::SolidDescription what = sheared(0);
+    BoundaryOptions moved = held("top", 0.1, {});
+    moved.kind = BoundaryOptions::Kind::velocity;
+    what.boundaries.push_back(moved);  // 0.1 t m/s until t = 1
+    what.loads.clear();
+    const test::Solid solid = test::distorted_solid(true, what);
+    auto integrator = with_options<TypeParam>({});
+    const Solution found = run(*solid.system, integrator);
+    EXPECT_EQ(found.n_steps, 1u);
+    for (const Constraint& constraint : solid.system->constraints()) {
+        if (constraint.kind == Constraint::Kind::displacement) continue;
+        EXPECT_NEAR(found.state.u[constraint.dof], 0.05, 1e-15);
+    }
+}
+
+TYPED_TEST(StaticIntegrator, InitialVelocityUnderViscosity_DissipatesNothing) {
+    test::SolidDescription what = sheared(1e6);
+    what.materials[0].shear_viscosity = 1e6;
+    InitialOptions initial;
+    initial.velocity = {Formula("y"), Formula("x")};
+    what.initial = {initial};
+    const test::Solid solid = test::distorted_solid(true, what);
+    auto integrator = with_options<TypeParam>({.step = 0.5});
+    EXPECT_EQ(run(*solid.system, integrator).state.path.viscous, 0);
 }
 
 TYPED_TEST(StaticIntegrator, LoadInOneStepOrMany_SameEquilibrium) {

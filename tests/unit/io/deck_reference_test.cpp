@@ -111,7 +111,11 @@ step = 0.1
 longest = 0.2
 shortest = 1e-4
 most_iterations = 10
-solver = "umfpack"
+solver = "gmres"
+preconditioner = "diagonal"
+linear_tolerance = 1e-6
+most_linear_iterations = 500
+matrix_free = true
 [run]
 t_end = 1
 )toml",
@@ -135,8 +139,6 @@ rho_inf = 0.5
 adaptive = true
 rtol = 1e-5
 displacement_scale = 1e-3
-velocity_scale = 1
-stress_scale = 1e6
 [run]
 t_end = 1
 )toml",
@@ -181,6 +183,8 @@ density = 1000
 constants = { E = 1e9, nu = 0.25 }
 [integrator]
 type = "cvode"
+velocity_scale = 1
+stress_scale = 1e6
 method = "adams"
 iteration = "functional"
 max_order = 4

@@ -107,6 +107,29 @@ TEST_P(KrylovOf, TooFewIterations_AreARecoverableErrorThatSaysHowFarItCame) {
     EXPECT_EQ(solver->iterations(), 3u);
 }
 
+TEST_P(KrylovOf, MostIterations_AreThoseOfTheWholeSolve) {
+    // few enough that neither gets there, and no multiple of the 50 after which GMRES starts anew
+    options.most_iterations = 60;
+    options.tolerance = 1e-14;
+    solver = make_linear_solver(options, true);
+    const Sparse a(0);  // singular: there is no end
+    try {
+        take(a);
+    } catch (const SingularMatrix&) {
+        return;  // an incomplete factorisation may find out first
+    }
+    EXPECT_THROW(solve(*solver, right_side(a, 1)), RecoverableError);
+    EXPECT_LE(solver->iterations(), 60u);
+}
+
+TEST_P(KrylovOf, RightSideThatIsNoNumber_IsRefused) {
+    const Sparse a(0.01);
+    take(a);
+    Eigen::VectorXd b = right_side(a, 1);
+    b[3] = std::nan("");
+    EXPECT_THROW(solve(*solver, b), RecoverableError);
+}
+
 TEST_P(KrylovOf, FreeBodyUnderALoadOutOfBalance_IsNotSolved) {
     options.most_iterations = 2000;
     solver = make_linear_solver(options, true);

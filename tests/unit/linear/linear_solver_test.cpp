@@ -119,6 +119,28 @@ TEST_P(GeneralLinearSolverOf, Indefinite_Solves) {
     EXPECT_LE(backward_error(a, solve(*solver, b), b), 1000);
 }
 
+TEST_P(GeneralLinearSolverOf, OddNumberOfNegativeEigenvalues_IsKnown) {
+    const std::vector<std::int64_t> starts{0, 2, 4, 5}, columns{0, 1, 0, 1, 2};
+    solver->analyse({starts, columns});
+    solver->factorise(std::vector<double>{2, 1, 1, 2, 3});
+    EXPECT_FALSE(solver->indefinite());
+    solver->factorise(std::vector<double>{2, 1, 1, 2, -3});
+    EXPECT_TRUE(solver->indefinite());
+    solver->factorise(std::vector<double>{1, 2, 2, 1, 3});
+    EXPECT_TRUE(solver->indefinite());
+    int odd = 0;
+    for (const double mass : {-0.1, -0.3, -0.5, -0.7, -0.9, -1.1}) {
+        const Sparse a(mass);
+        solver->analyse(a.pattern);
+        solver->factorise(a.values);
+        const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a.dense()).eigenvalues();
+        EXPECT_EQ(solver->indefinite(), (eigenvalues.array() < 0).count() % 2 == 1) << mass;
+        odd += solver->indefinite();
+    }
+    EXPECT_GT(odd, 0);
+    EXPECT_LT(odd, 6);
+}
+
 TEST(Cholmod, Indefinite_IsRefused) {
     const Sparse a(-0.5);
     const auto solver = make_cholmod();
@@ -152,18 +174,6 @@ TEST(Automatic, IndefiniteAmongDefinite_SolvesBoth) {
         EXPECT_LE(backward_error(*a, solve(*solver, b), b), 1000);
         EXPECT_EQ(solver->indefinite(), a == &indefinite);
     }
-}
-
-TEST(Umfpack, OddNumberOfNegativeEigenvalues_IsKnown) {
-    const std::vector<std::int64_t> starts{0, 2, 4, 5}, columns{0, 1, 0, 1, 2};
-    const auto solver = make_umfpack();
-    solver->analyse({starts, columns});
-    solver->factorise(std::vector<double>{2, 1, 1, 2, 3});
-    EXPECT_FALSE(solver->indefinite());
-    solver->factorise(std::vector<double>{2, 1, 1, 2, -3});
-    EXPECT_TRUE(solver->indefinite());
-    solver->factorise(std::vector<double>{1, 2, 2, 1, 3});
-    EXPECT_TRUE(solver->indefinite());
 }
 
 TEST(MakeLinearSolver, NamesAndSymmetry_AreChecked) {
