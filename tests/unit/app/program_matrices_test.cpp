@@ -137,6 +137,27 @@ TEST_F(ProgramMatrices, FollowerPressure_HasAMatrixThatIsNotSymmetric) {
     EXPECT_EQ(matrix("stiffness").kind, "general");
 }
 
+TEST_F(ProgramMatrices, Solver_ThatWouldRefuseTheSystem_IsNotAsked) {
+    put("case.toml", small_deck);  // with a follower pressure
+    const std::string quasi_static = "integrator={type = \"quasi_static\", solver = \"cholmod\"}";
+    ASSERT_NE(gneiss({"run", "case.toml", "--quiet", "--out", "run", "--set", quasi_static}).code, 0);
+    EXPECT_EQ(write({"--set", quasi_static})["symmetric"], false);
+}
+
+TEST_F(ProgramMatrices, PrescribedMotion_IsInTheState) {
+    put("case.toml", small_deck);
+    // the fixed side, elsewhere and moving
+    const nlohmann::json system = write(
+        {"--set",
+         "boundary.0={on = \"right\", type = \"displacement\", value = [1e-3, \"2e-3*y\"], amplitude = \"constant\"}"});
+    const auto nodes = system["nodes_m"].get<std::vector<std::array<double, 2>>>();
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        const bool right = nodes[node][0] == 1;
+        EXPECT_EQ(system["displacement_m"][2 * node], right ? 1e-3 : 0.0);
+        EXPECT_EQ(system["displacement_m"][2 * node + 1], right ? 2e-3 * nodes[node][1] : 0.0);
+    }
+}
+
 TEST_F(ProgramMatrices, Restart_GivesTheMatricesOfItsState) {
     put("case.toml", memory_deck);
     ASSERT_EQ(gneiss({"run", "case.toml", "--quiet", "--threads", "1", "--out", "run", "--set", "run.t_end=2e-3"}).code,
