@@ -74,13 +74,13 @@ void write_matrices(const RunArguments& arguments) {
     const Tangent& tangent = *built.system->tangent();
     const MatrixPattern pattern = tangent.pattern();
     std::vector<double> values(tangent.n_nonzero());
-    const auto write = [&](const char* name, const Tangent::Factors& factors, bool symmetric, const char* what) {
+    const auto write = [&](const char* name, const Tangent::Factors& factors, const char* what) {
         tangent.assemble(state, Trial::of(state), factors, values);
-        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, symmetric, what);
+        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, what);
     };
-    write("stiffness.mtx", {.stiffness = 1}, tangent.symmetric(), "stiffness, -df/du, N/m");
-    write("damping.mtx", {.damping = 1, .velocity = 1}, tangent.symmetric(), "damping, C - df/dv, N s/m");
-    write("mass.mtx", {.mass = 1}, true, "lumped mass, kg");
+    write("stiffness.mtx", {.stiffness = 1}, "stiffness, -df/du, N/m");
+    write("damping.mtx", {.damping = 1, .velocity = 1}, "damping, C - df/dv, N s/m");
+    write("mass.mtx", {.mass = 1}, "lumped mass, kg");
     write_atomically(out / "system.json", description(arguments, built, state).dump() + '\n');
 }
 

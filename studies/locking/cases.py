@@ -158,7 +158,7 @@ class Plan:
     maps: int                            # of the stress maps
     inf_sup: tuple[int, ...]             # of the inf-sup test, every family
     inf_sup_cst: tuple[int, ...]         # the same for CST: dense eigenvalues
-    spectrum: tuple[int, ...]            # of the eigenvalues of centre and mean: dense, not symmetric
+    spectrum: tuple[int, ...]            # of the eigenvalues of centre and mean, uniform_right and free: dense
     vibration: int                       # of their free vibrations, one of those of the spectrum
     p1_all_families: tuple[int, ...]     # where CST and P1 are compared on every family
     mixed: tuple[int, ...]               # P2 and Taylor-Hood, uniform_right
@@ -204,8 +204,8 @@ class Plan:
                 for n in levels]
 
     def spectrum_cases(self) -> list[Case]:
-        return [Case("corner", "strain", element, "uniform_right", n) for n in self.spectrum
-                for element in ("compt", "centre")]
+        return [Case("corner", "strain", element, family, n) for family in ("uniform_right", "free")
+                for n in self.spectrum for element in ("compt", "centre")]
 
     def vibrations(self) -> list[Vibration]:
         return [Vibration(element, nu, self.vibration) for nu in SIDE_RATIOS for element in ("compt", "centre")]

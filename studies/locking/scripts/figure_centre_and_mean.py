@@ -15,8 +15,8 @@ figure, panels = style.plt.subplots(2, 2, figsize=(style.FULL_WIDTH, 5.4))
 for column, nu in enumerate(SIDE_RATIOS):
     top, bottom = panels[:, column]
     for case in plan.spectrum_cases():
-        if case.n == plan.vibration:
-            pairs = np.array(json.loads(Path(f"spectra/{case.name}.json").read_text())[f"{nu:g}"])
+        if case.n == plan.vibration and case.family == "uniform_right":
+            pairs = np.array(json.loads(Path(f"spectra/{case.name}.json").read_text())[f"{nu:g}"]["omega"])
             top.plot(*(1e-3 * pairs.T), ELEMENT_MARKS[case.element], color=ELEMENT_COLOURS[case.element],
                      markersize=3, markerfacecolor="none", label=NAMES[case.element])
     if nu > 0.4:
@@ -30,7 +30,7 @@ for column, nu in enumerate(SIDE_RATIOS):
                             color=ELEMENT_COLOURS[vibration.element], linewidth=0.8, label=NAMES[vibration.element])
             if vibration.element == "centre":
                 pairs = np.array(json.loads(Path(f"spectra/corner-strain-centre-uniform_right-n{vibration.n:03d}.json")
-                                            .read_text())[f"{nu:g}"])
+                                            .read_text())[f"{nu:g}"]["omega"])
                 rate = np.max(pairs[:, 1])
                 late = history.t > 0.5 * VIBRATION_TIME
                 height = np.mean(np.log(history["kinetic"][late] / history["kinetic"][0]) - 2 * rate * history.t[late])

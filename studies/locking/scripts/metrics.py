@@ -123,15 +123,18 @@ def inf_sup_ratio(levels: dict) -> float:
 
 
 def centre_and_mean(plan: Plan, spectra: Path, vibrations: Path) -> dict:
-    """Flutter in the eigenvalues, and the growth of a free vibration against the largest Im omega, 1/s."""
-    found: dict = {"flutter": {}, "growth": {}}
+    """Flutter in the eigenvalues, the asymmetry of the stiffness, and the growth of a free vibration against the largest
+    Im omega, 1/s."""
+    found: dict = {"flutter": {}, "asymmetry": {}, "growth": {}}
     largest = {}
     for case in plan.spectrum_cases():
         spectrum = json.loads((spectra / f"{case.name}.json").read_text())
-        for nu, pairs in spectrum.items():
-            omega = np.array([complex(*pair) for pair in pairs])
-            found["flutter"].setdefault(case.element, {}).setdefault(nu, {})[str(case.n)] = flutter(omega)
-            largest[case.element, nu, case.n] = float(np.max(omega.imag))
+        for nu, entry in spectrum.items():
+            omega = np.array([complex(*pair) for pair in entry["omega"]])
+            for what, value in (("flutter", flutter(omega)), ("asymmetry", entry["asymmetry"])):
+                found[what].setdefault(case.element, {}).setdefault(case.family, {}).setdefault(nu, {})[str(case.n)] = value
+            if case.family == "uniform_right":
+                largest[case.element, nu, case.n] = float(np.max(omega.imag))
     for vibration in plan.vibrations():
         history = read_table(vibrations / vibration.name / "history.csv")
         found["growth"].setdefault(vibration.element, {})[f"{vibration.nu:g}"] = {
@@ -184,6 +187,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
     strain = u["small"]["strain"]
     grown = growth(u)
     squeezed = sides(results, plan)
+    growth_of = unstable["growth"]
 
     metrics = {
         "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
@@ -210,10 +214,17 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         "inf_sup_pressures_without_control": max(entry["n_without_control"] for levels in beta["compt"].values()
                                                  for entry in levels.values()),
         "inf_sup_min_ratio_cst": min(inf_sup_ratio(levels) for levels in beta["cst"].values()),
-        **{f"{element}_flutter_max_nu{nu:g}": max(unstable["flutter"][element][f"{nu:g}"].values())
+        **{f"{element}_asymmetry_max": max(value for by_nu in unstable["asymmetry"][element].values()
+                                           for levels in by_nu.values() for value in levels.values())
+           for element in ("compt", "centre")},
+        **{f"compt_flutter_max_nu{nu:g}": max(max(by_nu[f"{nu:g}"].values())
+                                              for by_nu in unstable["flutter"]["compt"].values()) for nu in SIDE_RATIOS},
+        **{f"centre_flutter_max_{family}_nu{nu:g}": max(by_nu[f"{nu:g}"].values())
+           for family, by_nu in unstable["flutter"]["centre"].items() for nu in SIDE_RATIOS},
+        **{f"{element}_growth_rate_nu{nu:g}": growth_of[element][f"{nu:g}"]["measured"]
            for nu in SIDE_RATIOS for element in ("compt", "centre")},
-        **{f"{element}_growth_rate_nu{nu:g}": unstable["growth"][element][f"{nu:g}"]["measured"]
-           for nu in SIDE_RATIOS for element in ("compt", "centre")},
+        **{f"compt_growth_over_centre_nu{nu:g}": abs(growth_of["compt"][f"{nu:g}"]["measured"]
+                                                     / growth_of["centre"][f"{nu:g}"]["measured"]) for nu in SIDE_RATIOS},
     }
     details = {
         "corner_displacement": u, "locking_table_difference": table, "plane_stress_offset": offset,
