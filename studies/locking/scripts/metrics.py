@@ -223,6 +223,9 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
            for family, by_nu in unstable["flutter"]["centre"].items() for nu in SIDE_RATIOS},
         **{f"{element}_growth_rate_nu{nu:g}": growth_of[element][f"{nu:g}"]["measured"]
            for nu in SIDE_RATIOS for element in ("compt", "centre")},
+        **{f"centre_growth_difference_nu{nu:g}": abs(growth_of["centre"][f"{nu:g}"]["measured"]
+                                                     / growth_of["centre"][f"{nu:g}"]["eigenvalues"] - 1)
+           for nu in SIDE_RATIOS},
         **{f"compt_growth_over_centre_nu{nu:g}": abs(growth_of["compt"][f"{nu:g}"]["measured"]
                                                      / growth_of["centre"][f"{nu:g}"]["measured"]) for nu in SIDE_RATIOS},
     }
