@@ -66,21 +66,32 @@ def growth(u: dict) -> dict:
     return found
 
 
-def spread_load(results: Results, plan: Plan, reference: float) -> dict:
-    """Errors in compliance by element and mesh, with the order over the last meshes."""
+def spread_load(results: Results, plan: Plan, peers: dict, reference: float) -> dict:
+    """Errors in compliance by element and mesh, deal.II's elements too, with their orders."""
     found: dict = {}
-    for element in ("cst", "compt"):
-        for family in FAMILIES:
-            cases = [Case("spread", "strain", element, family, n) for n in plan.spread]
-            compliance = [results.compliance(case) for case in cases]
-            errors = [value / reference - 1 for value in compliance]
-            last = slice(-LAST_LEVELS, None)
-            found.setdefault(element, {})[family] = {
-                "compliance": dict(zip(map(str, plan.spread), compliance)),
-                "error": dict(zip(map(str, plan.spread), errors)),
-                "order": observed_order([1 / n for n in plan.spread[last]], [abs(error) for error in errors[last]]),
-                "corner": {str(case.n): results.corner(case).tolist() for case in cases}}
+    for case in plan.spread_cases():
+        entry = found.setdefault(case.element, {}).setdefault(case.family, {"compliance": {}, "corner": {}})
+        entry["compliance"][str(case.n)] = results.compliance(case)
+        entry["corner"][str(case.n)] = results.corner(case).tolist()
+    for element, families in peers.get("compliance", {}).items():
+        for family, levels in families.items():
+            found.setdefault(element, {})[family] = {"compliance": levels,
+                                                     "corner": peers["corner"]["spread"]["strain"][element][family]}
+    for families in found.values():
+        for entry in families.values():
+            entry["error"] = {n: value / reference - 1 for n, value in entry["compliance"].items()}
+            entry |= orders(entry["error"])
     return found
+
+
+def orders(errors: dict[str, float]) -> dict:
+    """Of errors by the number of composites: from each mesh to the next, and over the last of them. The latter only
+    where there are as many as an order is asked of."""
+    n = sorted(map(int, errors))
+    size, error = [1 / k for k in n], [abs(errors[str(k)]) for k in n]
+    pairs = {f"{a}-{b}": observed_order(size[i : i + 2], error[i : i + 2]) for i, (a, b) in enumerate(zip(n, n[1:]))}
+    last = slice(-LAST_LEVELS, None)
+    return {"orders": pairs, "order": observed_order(size[last], error[last]) if len(n) > 2 else None}
 
 
 def checkerboards(results: Results, plan: Plan) -> dict:
@@ -153,7 +164,8 @@ def against_deal_ii(results: Results, plan: Plan) -> dict:
         where = found["corner"].setdefault(case.load, {}).setdefault(case.plane, {}).setdefault(element, {})
         where.setdefault(case.family, {})[str(case.n)] = (np.array(peer["probes"]["corner"]) / case.force).tolist()
         if case.load == "spread":
-            found["compliance"].setdefault(element, {})[str(case.n)] = peer["compliance"] / case.force**2
+            levels = found["compliance"].setdefault(element, {}).setdefault(case.family, {})
+            levels[str(case.n)] = peer["compliance"] / case.force**2
     return found
 
 
@@ -179,7 +191,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         skipped.append("deal.II is not there: no comparison of CST with P1, no P2 and Taylor-Hood elements; the spread "
                        "load is compared with the stored reference")
         reference["used"] = REFERENCE_COMPLIANCE
-    spread = spread_load(results, plan, reference["used"])
+    spread = spread_load(results, plan, peers, reference["used"])
     last = str(plan.spread[-1])
     cst_board, compt_board = (finest(boards[element]["uniform_right"])["pressure"] for element in ("cst", "compt"))
     ratio_of = {family: finest(boards["compt"][family])["pressure"] / finest(boards["cst"][family])["pressure"]
@@ -196,6 +208,8 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         "compt_traction_order": min(spread["compt"][f]["order"] for f in ORDER_FAMILIES),
         "cst_traction_error_finest": max((spread["cst"][f]["error"][last] for f in ORDER_FAMILIES), key=abs),
         **{f"cst_traction_error_finest_{f}": spread["cst"][f]["error"][last] for f in ORDER_FAMILIES},
+        **{f"{element}_traction_error_finest": max((finest(spread[element][f]["error"]) for f in ORDER_FAMILIES), key=abs)
+           if element in spread else SKIPPED for element in ("centre", "p2", "taylor_hood")},
         **{f"traction_corner_displacement_{e}_finest": spread[e]["uniform_right"]["corner"][last][0]
            for e in ("compt", "cst")},
         "plane_stress_offset_spread": offset["uniform_right"]["spread"],
