@@ -24,8 +24,11 @@ LOCKING_TABLE = {
     "compt": {2: 4.4677, 4: 6.4725, 8: 8.3491, 16: 10.1892, 32: 12.0178},
     "centre": {2: 5.9973, 4: 7.8298, 8: 9.6540, 16: 11.4736, 32: 13.2943},
 }
-# Compliance of the spread load, m/N, for where deal.II is not there: gneiss_crosscheck, Taylor-Hood elements on
-# reference.geo, 2 068 001 unknowns (refined twice). Refined once, it is less by 1e-8 of it; never, by 1.3e-7.
+# Compliance of the spread load, m/N, for where deal.II is not there: Taylor-Hood elements on reference.geo, 2 068 001
+# unknowns (refined twice). Refined once, it is less by 1e-8 of it; never, by 1.3e-7. After a study has written its decks
+#   build/release/tests/crosscheck/gneiss_crosscheck results/locking/decks/reference.toml --element taylor_hood --refine 2
+#     --out reference.json
+# computes it (4.5 GB, a minute): `compliance` in J over the square of the force, 1e-6 N2. Every study compares the two.
 REFERENCE_COMPLIANCE = 7.26442932e-9
 TABLE_UNIT = 1e-9  # m/N: a constant of 1 in the table is 1 GPa here
 

@@ -14,6 +14,9 @@ COARSE = "discretisation: coarser meshes, and three instead of four for an order
 BOUNDS = {
     "cst_dealii_p1_difference_max": Bound(1e-8, 1e-8, may_skip=True),
     "locking_table_difference_max": Bound(5e-4, 5e-4),
+    # The stored one is refined once more than that of the full study, twice more than that of the quick one, which makes
+    # 1e-8 and 1.3e-7; another version of Gmsh makes another mesh and as much again.
+    "reference_difference": Bound(5e-8, 5e-7, "the reference's mesh is not refined", may_skip=True),
     "compt_traction_error_finest": Bound(0.005, 0.005),
     "compt_traction_order": Bound(1.5, 1.4, COARSE, at_least=True),
     "plane_stress_offset_spread": Bound(0.01, 0.01),

@@ -204,6 +204,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
     metrics = {
         "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
         "locking_table_difference_max": max(abs(d) for column in table.values() for d in column.values()),
+        "reference_difference": abs(REFERENCE_COMPLIANCE / reference["used"] - 1) if with_deal_ii else SKIPPED,
         "compt_traction_error_finest": max(abs(spread["compt"][f]["error"][last]) for f in ORDER_FAMILIES),
         "compt_traction_order": min(spread["compt"][f]["order"] for f in ORDER_FAMILIES),
         "cst_traction_error_finest": max((spread["cst"][f]["error"][last] for f in ORDER_FAMILIES), key=abs),
