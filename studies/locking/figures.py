@@ -5,8 +5,9 @@ from studies.common import style
 
 ELEMENT_NAMES = {"cst": "CST", "compt": "COMPT", "centre": "COMPT, centre", "p1": "P1 (deal.II)", "p2": "P2 (deal.II)",
                  "taylor_hood": "Taylor–Hood (deal.II)"}
-ELEMENT_COLOURS = {"cst": style.RED, "compt": style.BLUE, "centre": style.ORANGE, "p1": "black", "p2": style.PURPLE,
-                   "taylor_hood": style.GREEN}
+# Peers are black or grey: colours are for our own elements, and for meshes.
+ELEMENT_COLOURS = {"cst": style.RED, "compt": style.BLUE, "centre": style.ORANGE, "p1": "black", "p2": style.GREY,
+                   "taylor_hood": "black"}
 ELEMENT_MARKS = {"cst": "s", "compt": "o", "centre": "D", "p1": "x", "p2": "^", "taylor_hood": "v"}
 ELEMENT_ORDER = ["compt", "centre", "cst", "p2", "taylor_hood"]  # of panels; P1 is CST
 

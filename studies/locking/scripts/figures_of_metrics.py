@@ -129,6 +129,7 @@ def inf_sup(path: str) -> None:
         style.panel_label(panel, f"{'ab'[element == 'cst']}) {ELEMENT_NAMES[element]}")
     panels[0].set(ylabel="inf-sup constant", ylim=(0, 0.8))
     panels[1].set_yscale("log")
+    figure.suptitle("smallest inf-sup constant of pressures that are controlled", fontsize=9)
     panels[-1].legend(*panels[0].get_legend_handles_labels(), loc="center", ncols=3)
     style.save(figure, path)
 
