@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.common.fields import Frame, frame_path, read_frame
-from studies.common.results import find_number, read_summary, read_table
+from studies.common.results import find_number, observed_order, read_summary, read_table
 from studies.locking.cases import Case
 
 Array = NDArray[np.float64]
 
 CORNER = (1.0, 1.0)       # m, where the load is
+LAST_LEVELS = 4           # meshes from which orders and the spread of an offset are taken
 CHECKERBOARD_REACH = 0.5  # m: nearer to the corner the stress itself is too steep to be told from an oscillation
 
 # VERIFICATION 7: u_x of the corner, m, under a unit force (1, -1), M = 0.6667, M_v = 1666.4, uniform_right.
@@ -76,6 +77,16 @@ def growth_per_halving(M_v: float, M: float) -> float:
     """
     c11, c12 = M_v + M, M_v
     return float(np.log(2) / ((c11**2 - c12**2) / c11 * (np.pi / 4 - 0.5)))
+
+
+def orders(errors: dict[str, float]) -> dict:
+    """Of errors by the number of composites: "orders" from each mesh to the next, as "8-16"; "order" over the last
+    LAST_LEVELS of them, by least squares, or None where there are no three."""
+    n = sorted(map(int, errors))
+    size, error = [1 / k for k in n], [abs(errors[str(k)]) for k in n]
+    pairs = {f"{a}-{b}": observed_order(size[i : i + 2], error[i : i + 2]) for i, (a, b) in enumerate(zip(n, n[1:]))}
+    last = slice(-LAST_LEVELS, None)
+    return {"orders": pairs, "order": observed_order(size[last], error[last]) if len(n) > 2 else None}
 
 
 def relative_difference(a: Array, b: Array) -> float:

@@ -6,14 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from studies.common.bounds import SKIPPED
-from studies.common.results import observed_order, read_table
-from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
-                                      growth_per_halving, pressure, relative_difference, stress_difference)
+from studies.common.results import read_table
+from studies.locking.analysis import (LAST_LEVELS, LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
+                                      growth_per_halving, orders, pressure, relative_difference, stress_difference)
 from studies.locking.cases import CONSTANTS, FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, M, Plan
 from studies.locking.spectrum import flutter, growth_rate
 
 ORDER_FAMILIES = ["uniform_right", "uniform_left", "alternating"]  # where an order is asked of the spread load
-LAST_LEVELS = 4  # meshes from which orders and the spread of an offset are taken
 
 
 def corner(plane: str, element: str, family: str, n: int, size: str = "small") -> Case:
@@ -82,16 +81,6 @@ def spread_load(results: Results, plan: Plan, peers: dict, reference: float) -> 
             entry["error"] = {n: value / reference - 1 for n, value in entry["compliance"].items()}
             entry |= orders(entry["error"])
     return found
-
-
-def orders(errors: dict[str, float]) -> dict:
-    """Of errors by the number of composites: from each mesh to the next, and over the last of them. The latter only
-    where there are as many as an order is asked of."""
-    n = sorted(map(int, errors))
-    size, error = [1 / k for k in n], [abs(errors[str(k)]) for k in n]
-    pairs = {f"{a}-{b}": observed_order(size[i : i + 2], error[i : i + 2]) for i, (a, b) in enumerate(zip(n, n[1:]))}
-    last = slice(-LAST_LEVELS, None)
-    return {"orders": pairs, "order": observed_order(size[last], error[last]) if len(n) > 2 else None}
 
 
 def checkerboards(results: Results, plan: Plan) -> dict:
@@ -207,6 +196,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         "reference_difference": abs(REFERENCE_COMPLIANCE / reference["used"] - 1) if with_deal_ii else SKIPPED,
         "compt_traction_error_finest": max(abs(spread["compt"][f]["error"][last]) for f in ORDER_FAMILIES),
         "compt_traction_order": min(spread["compt"][f]["order"] for f in ORDER_FAMILIES),
+        **{f"compt_traction_order_{f}": spread["compt"][f]["order"] for f in ORDER_FAMILIES},
         "cst_traction_error_finest": max((spread["cst"][f]["error"][last] for f in ORDER_FAMILIES), key=abs),
         **{f"cst_traction_error_finest_{f}": spread["cst"][f]["error"][last] for f in ORDER_FAMILIES},
         **{f"{element}_traction_error_finest": max((finest(spread[element][f]["error"]) for f in ORDER_FAMILIES), key=abs)
