@@ -8,6 +8,7 @@
 #include "app/build_case.hpp"
 #include "app/checkpoints.hpp"
 #include "app/threads.hpp"
+#include "integrators/prescribed_motion.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/atomic_file.hpp"
 #include "io/output/matrix_market.hpp"
@@ -19,14 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The state that the deck starts from, or that of the checkpoint.
+/// The state that the deck starts from, or that of the checkpoint. No integrator starts: its matrices and factors would
+/// stand beside those that are written, and some refuse a system that they do not suit.
 State state_of(const RunArguments& arguments, const Case& built) {
-    State state = built.system->initial_state();
-    RunProgress progress;
-    if (arguments.restart) load_checkpoint(*arguments.restart, built, state, progress);
-    March march;  // of no length: events that are due, prescribed displacements
-    march.t_end = state.t;
-    march.run(*built.system, *built.integrator, state, arguments.restart.has_value());
+    const SolidSystem& system = *built.system;
+    State state = system.initial_state();
+    if (arguments.restart) {
+        RunProgress progress;
+        load_checkpoint(*arguments.restart, built, state, progress);
+        return state;
+    }
+    apply_due_events(system, state);
+    PrescribedMotion motion;
+    motion.bind(system, system.frequency_bound(state).omega);
+    motion.hold(system, state, StartReason::fresh);
+    if (built.integrator->is_static()) std::ranges::fill(state.v, 0.0);
     return state;
 }
 
@@ -66,13 +74,13 @@ void write_matrices(const RunArguments& arguments) {
     const Tangent& tangent = *built.system->tangent();
     const MatrixPattern pattern = tangent.pattern();
     std::vector<double> values(tangent.n_nonzero());
-    const auto write = [&](const char* name, const Tangent::Factors& factors, bool symmetric, const char* what) {
+    const auto write = [&](const char* name, const Tangent::Factors& factors, const char* what) {
         tangent.assemble(state, Trial::of(state), factors, values);
-        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, symmetric, what);
+        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, what);
     };
-    write("stiffness.mtx", {.stiffness = 1}, tangent.symmetric(), "stiffness, -df/du, N/m");
-    write("damping.mtx", {.damping = 1, .velocity = 1}, tangent.symmetric(), "damping, C - df/dv, N s/m");
-    write("mass.mtx", {.mass = 1}, true, "lumped mass, kg");
+    write("stiffness.mtx", {.stiffness = 1}, "stiffness, -df/du, N/m");
+    write("damping.mtx", {.damping = 1, .velocity = 1}, "damping, C - df/dv, N s/m");
+    write("mass.mtx", {.mass = 1}, "lumped mass, kg");
     write_atomically(out / "system.json", description(arguments, built, state).dump() + '\n');
 }
 

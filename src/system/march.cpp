@@ -35,7 +35,8 @@ double first_instant(std::initializer_list<double> times) {
     return first;
 }
 
-/// Lets every event happen that is due at state.t; the strongest outcome counts.
+}  // namespace
+
 EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
     EventOutcome strongest = EventOutcome::none;
     for (const auto& event : system.events()) {
@@ -44,8 +45,6 @@ EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
     }
     return strongest;
 }
-
-}  // namespace
 
 MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, State& state, bool resumed) const {
     const Watch watch(integrator, within_step);

@@ -15,6 +15,10 @@ inline bool reached(double t, double time) {
     return time - t <= round_off * std::abs(t);
 }
 
+/// Lets every event happen that is due at state.t.
+/// @return the strongest outcome
+EventOutcome apply_due_events(const SemiDiscrete& system, State& state);
+
 enum class MarchOutcome { finished, interrupted };
 
 struct March {

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.common.fields import Frame, frame_path, read_frame
-from studies.common.results import find_number, read_summary, read_table
+from studies.common.results import find_number, observed_order, read_summary, read_table
 from studies.locking.cases import Case
 
 Array = NDArray[np.float64]
 
 CORNER = (1.0, 1.0)       # m, where the load is
+LAST_LEVELS = 4           # meshes from which orders and the spread of an offset are taken
 CHECKERBOARD_REACH = 0.5  # m: nearer to the corner the stress itself is too steep to be told from an oscillation
 
 # VERIFICATION 7: u_x of the corner, m, under a unit force (1, -1), M = 0.6667, M_v = 1666.4, uniform_right.
@@ -24,8 +25,11 @@ LOCKING_TABLE = {
     "compt": {2: 4.4677, 4: 6.4725, 8: 8.3491, 16: 10.1892, 32: 12.0178},
     "centre": {2: 5.9973, 4: 7.8298, 8: 9.6540, 16: 11.4736, 32: 13.2943},
 }
-# Compliance of the spread load, m/N, for where deal.II is not there: gneiss_crosscheck, Taylor-Hood elements on
-# reference.geo, 2 068 001 unknowns (refined twice). Refined once, it is less by 1e-8 of it; never, by 1.3e-7.
+# Compliance of the spread load, m/N, for where deal.II is not there: Taylor-Hood elements on reference.geo, 2 068 001
+# unknowns (refined twice). Refined once, it is less by 1e-8 of it; never, by 1.3e-7. After a study has written its decks
+#   build/release/tests/crosscheck/gneiss_crosscheck results/locking/decks/reference.toml --element taylor_hood --refine 2
+#     --out reference.json
+# computes it (4.5 GB, a minute): `compliance` in J over the square of the force, 1e-6 N2. Every study compares the two.
 REFERENCE_COMPLIANCE = 7.26442932e-9
 TABLE_UNIT = 1e-9  # m/N: a constant of 1 in the table is 1 GPa here
 
@@ -73,6 +77,16 @@ def growth_per_halving(M_v: float, M: float) -> float:
     """
     c11, c12 = M_v + M, M_v
     return float(np.log(2) / ((c11**2 - c12**2) / c11 * (np.pi / 4 - 0.5)))
+
+
+def orders(errors: dict[str, float]) -> dict:
+    """Of errors by the number of composites: "orders" from each mesh to the next, as "8-16"; "order" over the last
+    LAST_LEVELS of them, by least squares, or None where there are no three."""
+    n = sorted(map(int, errors))
+    size, error = [1 / k for k in n], [abs(errors[str(k)]) for k in n]
+    pairs = {f"{a}-{b}": observed_order(size[i : i + 2], error[i : i + 2]) for i, (a, b) in enumerate(zip(n, n[1:]))}
+    last = slice(-LAST_LEVELS, None)
+    return {"orders": pairs, "order": observed_order(size[last], error[last]) if len(n) > 2 else None}
 
 
 def relative_difference(a: Array, b: Array) -> float:

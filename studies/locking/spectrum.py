@@ -10,6 +10,12 @@ from studies.common.matrices import System
 Array = NDArray[np.float64]
 
 
+def asymmetry(system: System) -> float:
+    """Largest entry of the stiffness less its transpose, over the largest entry; the free degrees of freedom."""
+    stiffness = system.stiffness[system.free][:, system.free]
+    return float(abs(stiffness - stiffness.T).max() / abs(stiffness).max())
+
+
 def frequencies(system: System) -> NDArray[np.complex128]:
     """omega of K phi = omega^2 M phi on the free degrees of freedom, rad/s, by ascending real part. The imaginary part
     is the rate at which one of a pair of modes grows. All eigenvalues, dense: for small systems."""

@@ -9,8 +9,7 @@
 
 namespace gneiss {
 
-void write_matrix_market(const std::filesystem::path& path, const CompressedRows& matrix, bool symmetric,
-                         const std::string& comment) {
+void write_matrix_market(const std::filesystem::path& path, const CompressedRows& matrix, const std::string& comment) {
     const std::size_t n = matrix.row_starts.size() - 1;
     std::string entries;
     std::size_t n_entries = 0;
@@ -19,14 +18,14 @@ void write_matrix_market(const std::filesystem::path& path, const CompressedRows
         const auto last = static_cast<std::size_t>(matrix.row_starts[row + 1]);
         for (std::size_t k = first; k < last; ++k) {
             const auto column = static_cast<std::size_t>(matrix.columns[k]);
-            if (matrix.values[k] == 0 || (symmetric && column > row)) continue;
+            if (matrix.values[k] == 0) continue;
             fmt::format_to(std::back_inserter(entries), FMT_COMPILE("{} {} {}\n"), row + 1, column + 1,
                            matrix.values[k]);
             ++n_entries;
         }
     }
-    write_atomically(path, fmt::format("%%MatrixMarket matrix coordinate real {}\n% {}\n{} {} {}\n{}",
-                                       symmetric ? "symmetric" : "general", comment, n, n, n_entries, entries));
+    write_atomically(path, fmt::format("%%MatrixMarket matrix coordinate real general\n% {}\n{} {} {}\n{}", comment, n,
+                                       n, n_entries, entries));
 }
 
 }  // namespace gneiss

@@ -16,11 +16,10 @@ struct CompressedRows {
     std::span<const double> values;            ///< shape (n_nonzero)
 };
 
-/// Writes the entries that are not zero, rows and columns from 1, numbers that read back exactly.
-/// @param symmetric  the lower triangle is written alone, and the file says so
-/// @param comment    stands below the heading; no line break
+/// Writes all entries that are not zero, rows and columns from 1, numbers that read back exactly. Symmetric matrices
+/// are written in full too: half of one would hide it if it were not.
+/// @param comment  stands below the heading; no line break
 /// @throws IoError
-void write_matrix_market(const std::filesystem::path& path, const CompressedRows& matrix, bool symmetric,
-                         const std::string& comment);
+void write_matrix_market(const std::filesystem::path& path, const CompressedRows& matrix, const std::string& comment);
 
 }  // namespace gneiss

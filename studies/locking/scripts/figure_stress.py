@@ -25,7 +25,7 @@ def limits(of):
 
 
 rows = [cases[i : i + 2] for i in range(0, len(cases), 2)]
-figure, panels = style.plt.subplots(len(rows), 2, figsize=(style.FULL_WIDTH, 3.5 * len(rows)), squeeze=False,
+figure, panels = style.plt.subplots(len(rows), 2, figsize=(style.FULL_WIDTH, 0.2 + 3.1 * len(rows)), squeeze=False,
                                     sharex=True, sharey=True)
 letters = iter("abcd")
 for row, axes in zip(rows, panels):
@@ -38,11 +38,13 @@ for row, axes in zip(rows, panels):
         panel.add_collection(drawn)
         panel.set_aspect("equal")
         panel.grid(False)
-        panel.set(xlim=(0, 1), ylim=(0, 1))
+        panel.set(xlim=(0, 1), ylim=(0, 1), xticks=[0, 0.25, 0.5, 0.75, 1], yticks=[0, 0.25, 0.5, 0.75, 1])
+        panel.set_xticklabels(["0", "", "0.5", "", "1"])
+        panel.set_yticklabels(["0", "", "0.5", "", "1"])
         ratio = f", ν = {case.nu:g}" if which == "sides" else ""
         style.panel_label(panel, f"{next(letters)}) {ELEMENT_NAMES[case.element]}{ratio}")
     axes[0].set_ylabel("y [m]")
-    figure.colorbar(drawn, ax=axes, label=label, extend="both", shrink=0.85)
+    figure.colorbar(drawn, ax=axes, label=label, extend="both", fraction=0.045, pad=0.01, aspect=30)
 for panel in panels[-1]:
     panel.set_xlabel("x [m]")
 title = {"stress": "corner force, plane stress", "strain": "corner force, plane strain, ν = 0.4999",

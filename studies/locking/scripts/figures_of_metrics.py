@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from studies.common import style
-from studies.locking.figures import (ELEMENT_COLOURS, ELEMENT_MARKS, ELEMENT_NAMES, FAMILY_COLOURS, FAMILY_MARKS,
+from studies.locking.figures import (ELEMENT_COLOURS, ELEMENT_MARKS, ELEMENT_NAMES, ELEMENT_ORDER, FAMILY_COLOURS, FAMILY_MARKS,
                                      FAMILY_NAMES, size_axis, sizes_and_values)
 
 details = json.loads(Path(snakemake.input[0]).read_text())["details"]  # noqa: F821
@@ -48,24 +48,45 @@ def displacement(plane: str, path: str) -> None:
     style.save(figure, path)
 
 
-def meshes(path: str) -> None:
-    """x of the corner in plane strain, every mesh."""
-    figure, panels = with_legend_below(2, 4.0)
-    for panel, element in zip(panels, ("compt", "cst")):
-        by_family = details["corner_displacement"]["small"]["strain"][element]
-        for family, levels in by_family.items():
-            sizes, values = sizes_and_values(levels)
-            panel.plot(sizes, [SCALE * value[0] for value in values], FAMILY_MARKS[family] + "-",
-                       color=FAMILY_COLOURS[family], markersize=4, label=FAMILY_NAMES[family])
-        size_axis(panel, sizes_and_values(by_family["uniform_right"])[0])
-        style.panel_label(panel, f"{'ab'[element == 'cst']}) {ELEMENT_NAMES[element]}")
-    top = max(panel.get_ylim()[1] for panel in panels[:2])
-    for panel in panels[:2]:
-        panel.set_ylim(0, top)
-    panels[0].set_ylabel("$u_x$ of the corner / force [nm/N]")
-    panels[-1].legend(*panels[0].get_legend_handles_labels(), loc="center", ncols=3)
-    figure.suptitle("corner force, plane strain, ν = 0.4999", fontsize=9)
+def by_element(title: str):
+    """A figure with a panel for each element, meshes as curves, and room for their legend: figure, {element: panel}, legend."""
+    figure, panels = style.plt.subplots(2, 3, figsize=(style.FULL_WIDTH, 4.8), sharex=True, sharey=True)
+    panels = list(panels.flat)
+    panels[-1].axis("off")
+    for letter, element, panel in zip("abcde", ELEMENT_ORDER, panels):
+        style.panel_label(panel, f"{letter}) {ELEMENT_NAMES[element]}")
+    figure.suptitle(title, fontsize=9)
+    return figure, dict(zip(ELEMENT_ORDER, panels)), panels[-1]
+
+
+def finish_by_element(figure, panels: dict, legend, sizes: list[float], label: str, path: str) -> None:
+    size_axis(panels["cst"], sizes, short=True)
+    for i, panel in enumerate(panels.values()):
+        panel.set_ylabel(label if i % 3 == 0 else "")
+        panel.set_xlabel("edge of a composite [m]" if i > 1 else "")
+        panel.tick_params(labelbottom=i > 1)
+        if not panel.lines:
+            panel.text(0.5, 0.5, "deal.II is not there", ha="center", transform=panel.transAxes, color=style.GREY)
+    legend.legend(*panels["cst"].get_legend_handles_labels(), loc="center")
     style.save(figure, path)
+
+
+def draw_family(panel, family: str, sizes: list[float], values: list[float]) -> None:
+    panel.plot(sizes, values, FAMILY_MARKS[family] + "-", color=FAMILY_COLOURS[family], markersize=4,
+               label=FAMILY_NAMES[family])
+
+
+def meshes(path: str) -> None:
+    """x of the corner in plane strain, every mesh and element."""
+    figure, panels, legend = by_element("corner force, plane strain, ν = 0.4999")
+    found = details["corner_displacement"]["small"]["strain"] | \
+        details["deal_ii"].get("corner", {}).get("corner", {}).get("strain", {})
+    for element, panel in panels.items():
+        for family, levels in found.get(element, {}).items():
+            sizes, values = sizes_and_values(levels)
+            draw_family(panel, family, sizes, [SCALE * value[0] for value in values])
+    panels["cst"].set_ylim(bottom=0)
+    finish_by_element(figure, panels, legend, sizes_and_values(found["cst"]["uniform_right"])[0], "$u_x$ / force [nm/N]", path)
 
 
 def checkerboard(path: str) -> None:
@@ -86,25 +107,15 @@ def checkerboard(path: str) -> None:
 
 
 def spread_load(path: str) -> None:
-    figure, panels = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.0), sharey=True)
-    for panel, element in zip(panels, ("compt", "cst")):
-        for family, entry in details["spread_load"][element].items():
+    figure, panels, legend = by_element("force spread over 0.25 m of both edges, plane strain, ν = 0.4999")
+    found = details["spread_load"]
+    for element, panel in panels.items():
+        for family, entry in found.get(element, {}).items():
             sizes, errors = sizes_and_values(entry["error"])
-            panel.loglog(sizes, np.abs(errors), FAMILY_MARKS[family] + "-", color=FAMILY_COLOURS[family], markersize=4,
-                         label=f"{FAMILY_NAMES[family]}: order {entry['order']:.2f}")
-        reference = details["reference_compliance"]["used"]
-        for peer, levels in details["deal_ii"].get("compliance", {}).items():
-            if element == "compt":
-                sizes, values = sizes_and_values(levels)
-                panel.loglog(sizes, [abs(value / reference - 1) for value in values], ELEMENT_MARKS[peer] + ":",
-                             color=ELEMENT_COLOURS[peer], markersize=4, markerfacecolor="none",
-                             label=f"{ELEMENT_NAMES[peer]}, uniform")
-        size_axis(panel, sizes_and_values(next(iter(details["spread_load"][element].values()))["error"])[0])
-        panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=7)
-        style.panel_label(panel, f"{'ab'[element == 'cst']}) {ELEMENT_NAMES[element]}")
-    panels[0].set_ylabel("relative error in compliance")
-    figure.suptitle("force spread over 0.25 m of both edges, plane strain, ν = 0.4999", fontsize=9)
-    style.save(figure, path)
+            draw_family(panel, family, sizes, np.abs(errors))
+        panel.set_yscale("log")
+    finish_by_element(figure, panels, legend, sizes_and_values(found["cst"]["uniform_right"]["error"])[0],
+                      "relative error in compliance", path)
 
 
 def inf_sup(path: str) -> None:
@@ -118,6 +129,7 @@ def inf_sup(path: str) -> None:
         style.panel_label(panel, f"{'ab'[element == 'cst']}) {ELEMENT_NAMES[element]}")
     panels[0].set(ylabel="inf-sup constant", ylim=(0, 0.8))
     panels[1].set_yscale("log")
+    figure.suptitle("smallest inf-sup constant of pressures that are controlled", fontsize=9)
     panels[-1].legend(*panels[0].get_legend_handles_labels(), loc="center", ncols=3)
     style.save(figure, path)
 

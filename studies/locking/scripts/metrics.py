@@ -6,14 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from studies.common.bounds import SKIPPED
-from studies.common.results import observed_order, read_table
-from studies.locking.analysis import (LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
-                                      growth_per_halving, pressure, relative_difference, stress_difference)
+from studies.common.results import read_table
+from studies.locking.analysis import (LAST_LEVELS, LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
+                                      growth_per_halving, orders, pressure, relative_difference, stress_difference)
 from studies.locking.cases import CONSTANTS, FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, M, Plan
 from studies.locking.spectrum import flutter, growth_rate
 
 ORDER_FAMILIES = ["uniform_right", "uniform_left", "alternating"]  # where an order is asked of the spread load
-LAST_LEVELS = 4  # meshes from which orders and the spread of an offset are taken
 
 
 def corner(plane: str, element: str, family: str, n: int, size: str = "small") -> Case:
@@ -66,20 +65,21 @@ def growth(u: dict) -> dict:
     return found
 
 
-def spread_load(results: Results, plan: Plan, reference: float) -> dict:
-    """Errors in compliance by element and mesh, with the order over the last meshes."""
+def spread_load(results: Results, plan: Plan, peers: dict, reference: float) -> dict:
+    """Errors in compliance by element and mesh, deal.II's elements too, with their orders."""
     found: dict = {}
-    for element in ("cst", "compt"):
-        for family in FAMILIES:
-            cases = [Case("spread", "strain", element, family, n) for n in plan.spread]
-            compliance = [results.compliance(case) for case in cases]
-            errors = [value / reference - 1 for value in compliance]
-            last = slice(-LAST_LEVELS, None)
-            found.setdefault(element, {})[family] = {
-                "compliance": dict(zip(map(str, plan.spread), compliance)),
-                "error": dict(zip(map(str, plan.spread), errors)),
-                "order": observed_order([1 / n for n in plan.spread[last]], [abs(error) for error in errors[last]]),
-                "corner": {str(case.n): results.corner(case).tolist() for case in cases}}
+    for case in plan.spread_cases():
+        entry = found.setdefault(case.element, {}).setdefault(case.family, {"compliance": {}, "corner": {}})
+        entry["compliance"][str(case.n)] = results.compliance(case)
+        entry["corner"][str(case.n)] = results.corner(case).tolist()
+    for element, families in peers.get("compliance", {}).items():
+        for family, levels in families.items():
+            found.setdefault(element, {})[family] = {"compliance": levels,
+                                                     "corner": peers["corner"]["spread"]["strain"][element][family]}
+    for families in found.values():
+        for entry in families.values():
+            entry["error"] = {n: value / reference - 1 for n, value in entry["compliance"].items()}
+            entry |= orders(entry["error"])
     return found
 
 
@@ -123,15 +123,18 @@ def inf_sup_ratio(levels: dict) -> float:
 
 
 def centre_and_mean(plan: Plan, spectra: Path, vibrations: Path) -> dict:
-    """Flutter in the eigenvalues, and the growth of a free vibration against the largest Im omega, 1/s."""
-    found: dict = {"flutter": {}, "growth": {}}
+    """Flutter in the eigenvalues, the asymmetry of the stiffness, and the growth of a free vibration against the largest
+    Im omega, 1/s."""
+    found: dict = {"flutter": {}, "asymmetry": {}, "growth": {}}
     largest = {}
     for case in plan.spectrum_cases():
         spectrum = json.loads((spectra / f"{case.name}.json").read_text())
-        for nu, pairs in spectrum.items():
-            omega = np.array([complex(*pair) for pair in pairs])
-            found["flutter"].setdefault(case.element, {}).setdefault(nu, {})[str(case.n)] = flutter(omega)
-            largest[case.element, nu, case.n] = float(np.max(omega.imag))
+        for nu, entry in spectrum.items():
+            omega = np.array([complex(*pair) for pair in entry["omega"]])
+            for what, value in (("flutter", flutter(omega)), ("asymmetry", entry["asymmetry"])):
+                found[what].setdefault(case.element, {}).setdefault(case.family, {}).setdefault(nu, {})[str(case.n)] = value
+            if case.family == "uniform_right":
+                largest[case.element, nu, case.n] = float(np.max(omega.imag))
     for vibration in plan.vibrations():
         history = read_table(vibrations / vibration.name / "history.csv")
         found["growth"].setdefault(vibration.element, {})[f"{vibration.nu:g}"] = {
@@ -150,7 +153,8 @@ def against_deal_ii(results: Results, plan: Plan) -> dict:
         where = found["corner"].setdefault(case.load, {}).setdefault(case.plane, {}).setdefault(element, {})
         where.setdefault(case.family, {})[str(case.n)] = (np.array(peer["probes"]["corner"]) / case.force).tolist()
         if case.load == "spread":
-            found["compliance"].setdefault(element, {})[str(case.n)] = peer["compliance"] / case.force**2
+            levels = found["compliance"].setdefault(element, {}).setdefault(case.family, {})
+            levels[str(case.n)] = peer["compliance"] / case.force**2
     return found
 
 
@@ -176,7 +180,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         skipped.append("deal.II is not there: no comparison of CST with P1, no P2 and Taylor-Hood elements; the spread "
                        "load is compared with the stored reference")
         reference["used"] = REFERENCE_COMPLIANCE
-    spread = spread_load(results, plan, reference["used"])
+    spread = spread_load(results, plan, peers, reference["used"])
     last = str(plan.spread[-1])
     cst_board, compt_board = (finest(boards[element]["uniform_right"])["pressure"] for element in ("cst", "compt"))
     ratio_of = {family: finest(boards["compt"][family])["pressure"] / finest(boards["cst"][family])["pressure"]
@@ -184,14 +188,19 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
     strain = u["small"]["strain"]
     grown = growth(u)
     squeezed = sides(results, plan)
+    growth_of = unstable["growth"]
 
     metrics = {
         "cst_dealii_p1_difference_max": max(peers["p1"].values()) if with_deal_ii else SKIPPED,
         "locking_table_difference_max": max(abs(d) for column in table.values() for d in column.values()),
+        "reference_difference": abs(REFERENCE_COMPLIANCE / reference["used"] - 1) if with_deal_ii else SKIPPED,
         "compt_traction_error_finest": max(abs(spread["compt"][f]["error"][last]) for f in ORDER_FAMILIES),
         "compt_traction_order": min(spread["compt"][f]["order"] for f in ORDER_FAMILIES),
+        **{f"compt_traction_order_{f}": spread["compt"][f]["order"] for f in ORDER_FAMILIES},
         "cst_traction_error_finest": max((spread["cst"][f]["error"][last] for f in ORDER_FAMILIES), key=abs),
         **{f"cst_traction_error_finest_{f}": spread["cst"][f]["error"][last] for f in ORDER_FAMILIES},
+        **{f"{element}_traction_error_finest": max((finest(spread[element][f]["error"]) for f in ORDER_FAMILIES), key=abs)
+           if element in spread else SKIPPED for element in ("centre", "p2", "taylor_hood")},
         **{f"traction_corner_displacement_{e}_finest": spread[e]["uniform_right"]["corner"][last][0]
            for e in ("compt", "cst")},
         "plane_stress_offset_spread": offset["uniform_right"]["spread"],
@@ -210,10 +219,20 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
         "inf_sup_pressures_without_control": max(entry["n_without_control"] for levels in beta["compt"].values()
                                                  for entry in levels.values()),
         "inf_sup_min_ratio_cst": min(inf_sup_ratio(levels) for levels in beta["cst"].values()),
-        **{f"{element}_flutter_max_nu{nu:g}": max(unstable["flutter"][element][f"{nu:g}"].values())
+        **{f"{element}_asymmetry_max": max(value for by_nu in unstable["asymmetry"][element].values()
+                                           for levels in by_nu.values() for value in levels.values())
+           for element in ("compt", "centre")},
+        **{f"compt_flutter_max_nu{nu:g}": max(max(by_nu[f"{nu:g}"].values())
+                                              for by_nu in unstable["flutter"]["compt"].values()) for nu in SIDE_RATIOS},
+        **{f"centre_flutter_max_{family}_nu{nu:g}": max(by_nu[f"{nu:g}"].values())
+           for family, by_nu in unstable["flutter"]["centre"].items() for nu in SIDE_RATIOS},
+        **{f"{element}_growth_rate_nu{nu:g}": growth_of[element][f"{nu:g}"]["measured"]
            for nu in SIDE_RATIOS for element in ("compt", "centre")},
-        **{f"{element}_growth_rate_nu{nu:g}": unstable["growth"][element][f"{nu:g}"]["measured"]
-           for nu in SIDE_RATIOS for element in ("compt", "centre")},
+        **{f"centre_growth_difference_nu{nu:g}": abs(growth_of["centre"][f"{nu:g}"]["measured"]
+                                                     / growth_of["centre"][f"{nu:g}"]["eigenvalues"] - 1)
+           for nu in SIDE_RATIOS},
+        **{f"compt_growth_over_centre_nu{nu:g}": abs(growth_of["compt"][f"{nu:g}"]["measured"]
+                                                     / growth_of["centre"][f"{nu:g}"]["measured"]) for nu in SIDE_RATIOS},
     }
     details = {
         "corner_displacement": u, "locking_table_difference": table, "plane_stress_offset": offset,

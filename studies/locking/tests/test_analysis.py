@@ -8,7 +8,7 @@ import numpy as np
 
 from studies.common.fields import Frame
 from studies.locking.analysis import (CHECKERBOARD_REACH, CORNER, Results, areas, checkerboard, growth_per_halving,
-                                      pressure, relative_difference, smoothed, stress_difference)
+                                      orders, pressure, relative_difference, smoothed, stress_difference)
 from studies.locking.cases import Case
 
 
@@ -65,6 +65,23 @@ class TestStressDifference(unittest.TestCase):
     def test_OtherTriangles_AreRefused(self):
         with self.assertRaisesRegex(ValueError, "different triangles"):
             stress_difference(square(4), square(5))
+
+
+class TestOrders(unittest.TestCase):
+    def test_Errors_OfOrderTwo_HaveItOfEitherSign(self):
+        found = orders({str(n): -3 / n**2 for n in (16, 2, 4, 8, 32)})
+        self.assertEqual(list(found["orders"]), ["2-4", "4-8", "8-16", "16-32"])
+        np.testing.assert_allclose(list(found["orders"].values()), 2)
+        self.assertAlmostEqual(found["order"], 2)
+
+    def test_Fit_IsOverTheLastMeshes_PairsAreOfAll(self):
+        errors = {"2": 17.0} | {str(n): 1 / n for n in (4, 8, 16, 32)}
+        found = orders(errors)
+        self.assertAlmostEqual(found["order"], 1)
+        self.assertAlmostEqual(found["orders"]["2-4"], np.log2(17 * 4))
+
+    def test_Fit_OfTwoMeshes_IsNone(self):
+        self.assertIsNone(orders({"2": 1.0, "4": 0.5})["order"])
 
 
 class TestGrowth(unittest.TestCase):

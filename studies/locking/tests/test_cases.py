@@ -2,7 +2,7 @@
 import unittest
 
 from studies.locking.analysis import LOCKING_TABLE
-from studies.locking.cases import (CONSTANTS, FAMILIES, FORCES, PATTERNS, PLANES, PLANS, SIDE_TRACTION, SPREAD_LENGTH,
+from studies.locking.cases import (CONSTANTS, ELEMENTS, FAMILIES, FORCES, PATTERNS, PLANES, PLANS, SIDE_TRACTION, SPREAD_LENGTH,
                                    Case, deck, reference_deck, vibration_deck)
 
 
@@ -16,8 +16,19 @@ class TestPlans(unittest.TestCase):
         plan = PLANS["full"]
         for family in FAMILIES:
             self.assertGreaterEqual(len(plan.corner[family]), 6)
-        for levels in (plan.spread, plan.finite, plan.inf_sup, plan.centre):
+        for levels in (plan.spread, plan.finite, plan.inf_sup):
             self.assertGreaterEqual(len(levels), 6)
+
+    def test_FullPlan_HasEveryElementOnSixRefinementsOfEveryMesh(self):
+        plan = PLANS["full"]
+        ours = [(case, case.element) for case in plan.all_cases() if case.solver == "newton" and case.size == "small"]
+        sizes: dict = {}
+        for case, element in ours + plan.peers():
+            sizes.setdefault((case.load, case.plane, element, case.family), set()).add(case.n)
+        for element in (*ELEMENTS, "p1", "p2", "taylor_hood"):
+            for family in FAMILIES:
+                for load, plane in (("corner", "stress"), ("corner", "strain"), ("spread", "strain")):
+                    self.assertGreaterEqual(len(sizes[load, plane, element, family]), 6, (load, plane, element, family))
 
     def test_Table_IsMeasuredAsAWhole(self):
         for plan in PLANS.values():

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from studies.locking.spectrum import flutter, frequencies, growth_rate
+from studies.locking.spectrum import asymmetry, flutter, frequencies, growth_rate
 
 
 @dataclass
@@ -38,6 +38,10 @@ class TestSpectrum(unittest.TestCase):
         omega = frequencies(Pair(0.1))
         exact = np.sqrt(1 + 0.1j)
         self.assertAlmostEqual(flutter(omega), exact.imag / exact.real)
+
+    def test_Asymmetry_IsThatOfTheStiffness_OverItsLargestEntry(self):
+        self.assertEqual(asymmetry(Pair(0.0)), 0)
+        self.assertAlmostEqual(asymmetry(Pair(0.1)), 0.2)
 
     def test_Growth_OfAGrowingOscillation_IsItsRate(self):
         t = np.linspace(0, 10, 4001)

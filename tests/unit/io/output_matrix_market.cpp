@@ -25,25 +25,18 @@ protected:
     const std::filesystem::path path = folder / "stiffness.mtx";
 };
 
-TEST_F(MatrixMarket, General_EveryEntryButZeros_RowsAndColumnsFromOne) {
-    write_matrix_market(path, matrix, false, "a comment, N/m");
+TEST_F(MatrixMarket, EveryEntryButZeros_RowsAndColumnsFromOne) {
+    write_matrix_market(path, matrix, "a comment, N/m");
     EXPECT_EQ(contents(path),
               "%%MatrixMarket matrix coordinate real general\n% a comment, N/m\n3 3 5\n"
               "1 1 0.3333333333333333\n1 2 -2\n2 1 -2\n2 3 0.5\n3 2 0.5\n");
     EXPECT_EQ(n_files(), 1u);
 }
 
-TEST_F(MatrixMarket, Symmetric_LowerTriangleAlone) {
-    write_matrix_market(path, matrix, true, "N/m");
-    EXPECT_EQ(contents(path),
-              "%%MatrixMarket matrix coordinate real symmetric\n% N/m\n3 3 3\n"
-              "1 1 0.3333333333333333\n2 1 -2\n3 2 0.5\n");
-}
-
 TEST_F(MatrixMarket, FullDisk_OldFileStays) {
     put(path, "old");
     fill_disk(path);
-    EXPECT_THAT(message_of<IoError>([&] { write_matrix_market(path, matrix, true, "N/m"); }), HasSubstr(path.string()));
+    EXPECT_THAT(message_of<IoError>([&] { write_matrix_market(path, matrix, "N/m"); }), HasSubstr(path.string()));
     EXPECT_EQ(contents(path), "old");
 }
 
