@@ -23,6 +23,9 @@ struct MunjizaHyperelastic {
 
     MunjizaConstants constants;
 
+    /// df/du of an element that takes the mean volume is symmetric: its forces are a gradient by u.
+    static constexpr bool symmetric_tangent() { return !direct; }
+
     template <class T>
     using Volume = MunjizaVolume<T>;
     template <class T>

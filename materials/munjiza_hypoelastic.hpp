@@ -89,6 +89,14 @@ struct MunjizaHypoelastic {
     MunjizaConstants constants;
     Stiffening stiffening;
 
+    /// With constant moduli a step ends at m = m0 + M (e - e0), whatever m0 and e0 are. `conjugate` makes of it forces
+    ///
+    ///     -f = sum_s V_s sum_k w_k m_k de_k/du = d/du sum_s V_s sum_k w_k (m0_k e_k + M_k/2 (e_k - e0_k)^2)
+    ///
+    /// with w = 1, 1, 1, psi-bar^2/2, and of given m the gradient of sum w_k m_k e_k: symmetric both. Moduli that
+    /// depend on the state add M_k (e_k - e0_k) dg/dp dp/de_l, which is not.
+    bool symmetric_tangent() const { return !direct && !stiffening.active(); }
+
     template <class T>
     using Volume = MunjizaVolume<T>;
     template <class T>

@@ -27,6 +27,8 @@ struct NeoHookean {
     double mu = 0;      ///< shear modulus, Pa, > 0
     double lambda = 0;  ///< Lame's constant, Pa, > -2/3 mu
 
+    static constexpr bool symmetric_tangent() { return true; }
+
     template <class T>
     struct Volume {
         T change;         ///< s_v - 1; not from s_v, which has lost its digits

@@ -44,7 +44,7 @@ public:
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
     bool symmetric_tangent() const override {
-        return Law::has_stored_energy && sampling == Sampling::mean && !viscous();
+        return law_.symmetric_tangent() && sampling == Sampling::mean && !viscous();
     }
     GNEISS_FLATTEN void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
                                     const MatrixPlaces& places, double* values) const override;

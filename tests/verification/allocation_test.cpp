@@ -1,4 +1,5 @@
-// Once it runs, a step allocates nothing: a program of its own, since it counts every allocation of the process.
+// Once it runs, a step allocates nothing, and neither does a tangent: a program of its own, since it counts every
+// allocation of the process.
 
 #include <gtest/gtest.h>
 
@@ -23,6 +24,14 @@ void* operator new(std::size_t size) {
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    ++n_allocations;
+    const auto a = static_cast<std::size_t>(alignment);
+    if (void* memory = std::aligned_alloc(a, (size + a - 1) / a * a)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
@@ -61,11 +70,15 @@ SolidSystem full_house(const Mesh& mesh, Form form) {
     return SolidSystem(mesh, std::move(parts));
 }
 
-TEST(Step, OnceUnderWay_AllocatesNothing) {
+Mesh several_chunks() {
     MeshOptions options;
     options.source = MeshOptions::Source::rectangle;
-    options.cells = {40, 40};  // several chunks
-    const Mesh mesh = make_mesh(options, true, {});
+    options.cells = {40, 40};
+    return make_mesh(options, true, {});
+}
+
+TEST(Step, OnceUnderWay_AllocatesNothing) {
+    const Mesh mesh = several_chunks();
     for (const Form form : {Form::hyper, Form::hypo}) {
         const SolidSystem system = full_house(mesh, form);
         CentralDifference integrator({});
@@ -77,6 +90,31 @@ TEST(Step, OnceUnderWay_AllocatesNothing) {
         const std::size_t before = n_allocations;
         for (int step = 0; step < n_steps; ++step) integrator.advance(system, state, far_away);
         for (int step = 0; step < n_steps; ++step) integrator.advance_unseen(system, state, far_away, far_away);
+        EXPECT_EQ(n_allocations - before, 0u);
+    }
+}
+
+TEST(Tangent, AssembledOnce_AllocatesNothing) {
+    const Mesh mesh = several_chunks();
+    for (const Form form : {Form::hyper, Form::hypo}) {
+        const SolidSystem system = full_house(mesh, form);
+        const State state = system.initial_state();
+        State moved = state;
+        moved.t = 0.5;  // the pressure is there
+        for (std::size_t i = 0; i < moved.u.size(); ++i) moved.u[i] = 1e-6 * static_cast<double>(i % 7);
+        const Tangent& tangent = *system.tangent();
+        const Tangent::Factors factors{.mass = 1, .damping = 2, .stiffness = 3, .velocity = 4};
+        std::vector<double> values(tangent.n_nonzero()), diagonal(moved.u.size());
+        const Trial updated = Trial::of(moved);
+        Trial given = updated;
+        given.z = moved.z;
+        const auto assemble = [&](const Trial& trial) {
+            tangent.assemble(state, trial, factors, values);
+            tangent.assemble_diagonal(state, trial, factors, diagonal);
+        };
+        assemble(updated);
+        const std::size_t before = n_allocations;
+        for (const Trial& trial : {updated, given}) assemble(trial);
         EXPECT_EQ(n_allocations - before, 0u);
     }
 }
