@@ -90,6 +90,13 @@ test::SolidDescription absorbing() {
     return what;
 }
 
+/// The same z, and a symmetric matrix.
+test::SolidDescription constant_moduli() {
+    test::SolidDescription what = held(of(Form::hypo, StressMap::conjugate, false, 1 / gamma_of_solids));
+    what.materials[0].stiffening = {};
+    return what;
+}
+
 std::vector<Case> cases() {
     constexpr auto hyper = Form::hyper, hypo = Form::hypo;
     constexpr auto conjugate = StressMap::conjugate, direct = StressMap::direct;
@@ -101,6 +108,7 @@ std::vector<Case> cases() {
             {"FixedDegreesOfFreedom", held(of(hyper, conjugate, false, damping))},
             {"Unsymmetric", of(hyper, direct, false, 0)},
             {"HypoElastic", of(hypo, conjugate, false, 0)},
+            {"HypoElasticConstantModuli", constant_moduli()},
             {"HypoElasticViscousFixed", held(of(hypo, direct, true, damping))},
             {"HypoElasticCst", held(of(hypo, conjugate, false, damping)), false},
             {"Everything", everything()}};
