@@ -184,6 +184,7 @@ void linear(::benchmark::State& state, const char* solver_name, Kind kind) {
     state.counters["assembly_%"] = 100 * assembly / total;
     state.counters["factorisation_%"] = 100 * factorisation / total;
     state.counters["solve_%"] = 100 * solution / total;
+    state.counters["iterations"] = static_cast<double>(solver->iterations()) / runs;
     state.counters["factor_B/unknown"] = static_cast<double>(solver->factor_bytes()) / static_cast<double>(free.n());
     state.counters["all_B/unknown"] = memory.growth() / static_cast<double>(free.n());
 }
@@ -358,6 +359,10 @@ BENCHMARK_CAPTURE(linear, umfpack_cst, "umfpack", cst_follower)->Apply(sizes);
 BENCHMARK_CAPTURE(linear, umfpack_compt, "umfpack", compt_follower)->Apply(sizes);
 BENCHMARK_CAPTURE(linear, klu_cst, "klu", cst_follower)->Apply(sizes);
 BENCHMARK_CAPTURE(linear, klu_compt, "klu", compt_follower)->Apply(sizes);
+
+BENCHMARK_CAPTURE(linear, pcg_cst, "pcg", cst)->Apply(small_and_large);
+BENCHMARK_CAPTURE(linear, pcg_compt, "pcg", compt)->Apply(small_and_large);
+BENCHMARK_CAPTURE(linear, gmres_compt, "gmres", compt_follower)->Apply(small_and_large);
 
 BENCHMARK_CAPTURE(statics, cholmod_cst, "cholmod", cst)->Apply(one_step);
 BENCHMARK_CAPTURE(statics, cholmod_compt, "cholmod", compt)->Apply(one_step);

@@ -33,7 +33,7 @@ GeneralizedAlpha::Options with(const Scheme& scheme, double dt) {
 }
 
 TEST(GeneralizedAlpha, ChungHulbert_SpectralRadiusAtInfinity_IsRhoInf) {
-    // the recursion is linear: the ratio of successive norms of (u, dt v, dt^2 a) comes to its spectral radius; the
+    // the recursion is linear: the ratio of successive norms of (u, dt v) comes to its spectral radius; the
     // root is defective, so that the ratio approaches it as 1/n
     for (const double rho : {0.3, 0.5, 0.8, 1.0}) {
         constexpr double dt = 1, omega = 1e6;
