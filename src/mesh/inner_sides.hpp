@@ -1,0 +1,76 @@
+#pragma once
+// The sides along which elements touch, and meshes that come apart along them.
+
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace gneiss {
+
+/// One of the three sides of an element: from its corner `side` to the next one, counter-clockwise.
+struct ElementSide {
+    std::int32_t element;
+    int side;  ///< 0 to 2
+};
+
+/// Where two elements touch.
+struct InnerSide {
+    ElementSide left, right;  ///< left.element < right.element; each walks the side in its own direction
+};
+
+/// Local numbers of the nodes of a side in walking order: two of a CST, corner, mid-side, corner of a composite.
+std::span<const int> side_nodes(ElementKind kind, int side);
+
+/// A node that has come into being where others parted.
+struct NodeCopy {
+    std::int32_t original, copy;
+};
+
+/// Opens sides of a mesh. Elements stay together at a node as long as they are bonded to each other around it: those
+/// that are not get nodes of their own, at the same place.
+class InnerSides {
+public:
+    /// @param mesh  refers to it; changed by open(). Nodes that elements share without a common side at them (two
+    /// elements that touch in a point alone) are told apart by the first open() around them.
+    explicit InnerSides(Mesh& mesh);
+
+    /// By ascending left element and side.
+    std::span<const InnerSide> sides() const { return sides_; }
+    /// The inner side that a side of an element is part of; -1: it is on the contour.
+    std::int32_t number(const ElementSide& side) const { return number_[index(side)]; }
+    bool is_open(std::int32_t side) const { return open_[static_cast<std::size_t>(side)]; }
+
+    /// Opens sides, given by their numbers, those that are open already among them or not. Nodes around which elements
+    /// have come apart are copied: the elements with the lowest number keep the node, each other group gets a copy at
+    /// the end of the mesh's nodes. Connectivity, boundaries, node sets (a copy belongs where its original does) and
+    /// labels follow.
+    /// @return the copies, in the order of their numbers
+    std::vector<NodeCopy> open(std::span<const std::int32_t> sides);
+
+private:
+    struct Range {
+        std::int32_t first, n;
+    };
+    std::size_t index(const ElementSide& side) const {
+        return 3 * static_cast<std::size_t>(side.element) + static_cast<std::size_t>(side.side);
+    }
+    std::span<std::int32_t> elements_at(std::int32_t node) {
+        const Range& range = at_node_[static_cast<std::size_t>(node)];
+        return std::span(elements_).subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.n));
+    }
+    /// Parts the elements at a node into groups that hold together.
+    void split(std::int32_t node, std::vector<NodeCopy>& copies);
+    /// The element across a side of an element; -1: none, or not bonded.
+    std::int32_t bonded(const ElementSide& side) const;
+    void rename(std::int32_t element, std::int32_t from, std::int32_t to);
+
+    Mesh& mesh_;
+    std::vector<InnerSide> sides_;
+    std::vector<std::int32_t> number_;  ///< shape (n_elements, 3)
+    std::vector<bool> open_;
+    std::vector<std::int32_t> elements_;  ///< those at a node one behind the other
+    std::vector<Range> at_node_;          ///< of elements_, shape (n_nodes)
+};
+
+}  // namespace gneiss
