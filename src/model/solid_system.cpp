@@ -14,6 +14,7 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
     : elements_(std::move(parts.blocks), mesh),
       place_(mesh.n_elements()),
       terms_(std::move(parts.terms)),
+      interactions_(std::move(parts.interactions), elements_.n_history()),
       constraints_(std::move(parts.constraints)),
       damping_(std::move(parts.damping)),
       initial_velocity_(std::move(parts.initial_velocity)),
@@ -33,15 +34,18 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
     events_.push_back(std::make_unique<LoadSwitch>(std::move(switches)));
 }
 
-Layout SolidSystem::layout() const { return {mass_.size(), elements_.n_internal(), elements_.n_history()}; }
+Layout SolidSystem::layout() const {
+    return {mass_.size(), elements_.n_internal(), elements_.n_history() + interactions_.n_history()};
+}
 
 State SolidSystem::initial_state() const {
     State state;
     state.u.assign(mass_.size(), 0.0);
     state.v = initial_velocity_.empty() ? std::vector<double>(mass_.size(), 0.0) : initial_velocity_;
     state.z.resize(elements_.n_internal());
-    state.history.resize(elements_.n_history());
+    state.history.resize(layout().n_history);
     elements_.initial_memory(state.z, state.history);
+    interactions_.initial_history(state.history);
     if (elements_.viscous()) state.path.viscous_power = elements_.energies(state, Trial::of(state)).viscous_power;
     return state;
 }
@@ -52,12 +56,14 @@ void SolidSystem::constraint_values(double t, double last_event, std::span<doubl
 
 void SolidSystem::force(const State& accepted, const Trial& trial, std::span<double> f) const {
     elements_.force(accepted, trial, f);
+    interactions_.add_force(accepted, trial, f, {});
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
 void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                    std::span<double> history) const {
     elements_.force(accepted, trial, f, z, history);
+    interactions_.add_force(accepted, trial, f, history);
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
@@ -71,13 +77,19 @@ void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::
 }
 
 const Tangent* SolidSystem::tangent() const {
-    if (!tangent_) tangent_ = std::make_unique<SolidTangent>(elements_, terms_, mass_, damping_);
+    if (!tangent_) tangent_ = std::make_unique<SolidTangent>(elements_, terms_, interactions_, mass_, damping_);
     return tangent_.get();
 }
 
 FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
     const ElementBlock::Rates rates = elements_.largest_rates(accepted);
-    return {std::sqrt(rates.omega_squared), rates.damping};
+    const double more = interactions_.omega_squared(accepted, Trial::of(accepted), mass_);
+    return {std::sqrt(rates.omega_squared + more), rates.damping};
+}
+
+void SolidSystem::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
+    elements_.stiffness_bound(accepted, trial, bound);
+    interactions_.add_stiffness_bound(accepted, trial, bound);
 }
 
 StoredEnergies SolidSystem::stored_energies(const State& state) const {
@@ -87,6 +99,7 @@ StoredEnergies SolidSystem::stored_energies(const State& state) const {
     StoredEnergies energies;
     energies.material = sums.stored;
     energies.stress_power = sums.stress_power;
+    interactions_.add_stored(state, energies);
     return energies;
 }
 
@@ -96,6 +109,7 @@ void SolidSystem::add_path_energies(const State& from, State& to) const {
     Trial after = Trial::of(to);
     after.last_event = from.last_event;  // the step ends before what switches at its end
     for (const auto& term : terms_) term->add_path_energies(before, after, to.path);
+    interactions_.add_dissipated(from, to);
     if (!damping_.blocks.empty()) to.path.absorbing += absorbed_work(damping_.blocks, before, after);
     if (damping_.mass_proportional > 0) {
         const double sum = ordered_sum(mass_.size(), partial_, [&](std::size_t first, std::size_t last) {

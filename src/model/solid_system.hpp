@@ -8,6 +8,7 @@
 #include "model/boundaries.hpp"
 #include "model/element_forces.hpp"
 #include "model/force_term.hpp"
+#include "model/interaction.hpp"
 #include "model/solid_tangent.hpp"
 #include "system/semi_discrete.hpp"
 
@@ -18,6 +19,7 @@ public:
     struct Parts {
         std::vector<std::unique_ptr<ElementBlock>> blocks;
         std::vector<std::unique_ptr<ForceTerm>> terms;
+        std::vector<std::unique_ptr<Interaction>> interactions = {};
         ConstraintSet constraints;
         Damping damping;
         std::vector<double> initial_velocity;  ///< m/s, shape (2 n_nodes)
@@ -42,10 +44,8 @@ public:
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
-    /// Of the elements, whose stiffness is far larger than that of a follower pressure.
-    void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override {
-        elements_.stiffness_bound(accepted, trial, bound);
-    }
+    /// Without follower pressures, whose stiffness is small beside that of elements.
+    void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;
     void add_path_energies(const State& from, State& to) const override;
     std::span<const std::unique_ptr<Event>> events() const override { return events_; }
@@ -65,6 +65,7 @@ private:
     ElementForces elements_;
     std::vector<Place> place_;
     std::vector<std::unique_ptr<ForceTerm>> terms_;
+    Interactions interactions_;
     ConstraintSet constraints_;
     Damping damping_;
     std::vector<double> initial_velocity_;

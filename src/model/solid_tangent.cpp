@@ -23,12 +23,17 @@ std::size_t lane_of(std::uint32_t n, std::uint32_t local, std::uint32_t k) {
 }  // namespace
 
 SolidTangent::SolidTangent(const ElementForces& elements, std::span<const std::unique_ptr<ForceTerm>> terms,
-                           std::span<const double> lumped_mass, const Damping& damping)
-    : elements_(elements), terms_(terms), mass_(lumped_mass), damping_(damping) {
+                           const Interactions& interactions, std::span<const double> lumped_mass,
+                           const Damping& damping)
+    : elements_(elements), terms_(terms), interactions_(interactions), mass_(lumped_mass), damping_(damping) {
     symmetric_ = std::ranges::all_of(elements.blocks(), [](const auto& block) { return block->symmetric_tangent(); });
     for (const auto& term : terms) {
         couplings_.push_back(term->couplings());
         symmetric_ = symmetric_ && couplings_.back().empty();
+    }
+    for (std::size_t i = 0; i < interactions_.size(); ++i) {
+        couplings_.push_back(interactions_[i].couplings());
+        symmetric_ = symmetric_ && interactions_[i].symmetric();
     }
     std::size_t most = 0;
     for (const auto& pairs : couplings_) most = std::max(most, pairs.size());
@@ -72,6 +77,16 @@ void SolidTangent::plan_pattern(Places& places) const {
         const auto n = static_cast<std::size_t>(block->n_nodes());
         places.blocks.emplace_back(block->n_packs() * n * n * pack_width);
     }
+    // pairs of nodes that share no element, in both directions: the pattern is symmetric
+    std::vector<std::array<std::int32_t, 2>> across;
+    for (std::size_t term = terms_.size(); term < couplings_.size(); ++term)
+        for (const auto& [a, b] : couplings_[term]) {
+            across.push_back({a, b});
+            across.push_back({b, a});
+        }
+    std::sort(across.begin(), across.end());
+    auto next_across = across.cbegin();
+
     constexpr std::int32_t none = -1;
     std::vector<std::int32_t> seen_by(n_nodes, none), place_of(n_nodes);  // of the row at hand
     places.neighbour_starts.reserve(n_nodes + 1);
@@ -92,6 +107,10 @@ void SolidTangent::plan_pattern(Places& places) const {
             if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node)
                 places.neighbours.push_back(other);
         });
+        for (; next_across != across.cend() && (*next_across)[0] == node; ++next_across)
+            if (const std::int32_t other = (*next_across)[1];
+                std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node)
+                places.neighbours.push_back(other);
         if (places.neighbours.size() > std::numeric_limits<std::int32_t>::max() / 2)
             throw std::length_error("a tangent of more than 2^32 entries");
         std::sort(places.neighbours.begin() + static_cast<std::ptrdiff_t>(first), places.neighbours.end());
@@ -193,9 +212,15 @@ void SolidTangent::add_elements(const State& accepted, const Trial& trial, const
     }
 }
 
-std::span<const ForceTerm::Stiffness> SolidTangent::stiffness(std::size_t term, const Trial& trial) const {
+std::span<const ForceTerm::Stiffness> SolidTangent::stiffness(std::size_t term, const State& accepted,
+                                                              const Trial& trial) const {
     const std::span stiffness(term_stiffness_.data(), couplings_[term].size());
-    terms_[term]->stiffness(trial, stiffness);
+    if (term < terms_.size()) {
+        terms_[term]->stiffness(trial, stiffness);
+    } else {
+        const std::size_t i = term - terms_.size();
+        interactions_[i].stiffness(trial, interactions_.part(i, std::span<const double>(accepted.history)), stiffness);
+    }
     return stiffness;
 }
 
@@ -229,8 +254,8 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
     };
     add_elements(accepted, trial, factors, block_places, values.data());
     if (factors.stiffness == 0) return;
-    for (std::size_t t = 0; t < terms_.size(); ++t) {
-        const auto term = stiffness(t, trial);
+    for (std::size_t t = 0; t < couplings_.size(); ++t) {
+        const auto term = stiffness(t, accepted, trial);
         for (std::size_t i = 0; i < term.size(); ++i) {
             const double c = -factors.stiffness;
             add_block(static_cast<std::size_t>(couplings_[t][i][0]), at.terms[t][i], c * term[i].xx, c * term[i].xy,
@@ -253,8 +278,8 @@ void SolidTangent::assemble_diagonal(const State& accepted, const Trial& trial, 
     const auto no_places = [](std::size_t) { return ElementBlock::MatrixPlaces{nullptr, nullptr}; };
     add_elements(accepted, trial, factors, no_places, diagonal.data());
     if (factors.stiffness == 0) return;
-    for (std::size_t t = 0; t < terms_.size(); ++t) {
-        const auto term = stiffness(t, trial);
+    for (std::size_t t = 0; t < couplings_.size(); ++t) {
+        const auto term = stiffness(t, accepted, trial);
         for (std::size_t i = 0; i < term.size(); ++i)
             if (couplings_[t][i][0] == couplings_[t][i][1])
                 add(couplings_[t][i][0], -factors.stiffness, term[i].xx, term[i].yy);

@@ -1,5 +1,5 @@
 #pragma once
-// The tangent of a solid as a matrix of compressed rows: elements, loads, masses, damping.
+// The tangent of a solid as a matrix of compressed rows: elements, loads, interactions, masses, damping.
 //
 // Chunks of packs that touch no common node have one colour; colours are assembled one after the other, the chunks of
 // one colour in parallel. An entry is thus summed in the order of the colours, for any number of threads.
@@ -11,6 +11,7 @@
 
 #include "model/element_forces.hpp"
 #include "model/force_term.hpp"
+#include "model/interaction.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
@@ -19,7 +20,7 @@ class SolidTangent final : public Tangent {
 public:
     /// The arguments have to outlive the tangent.
     SolidTangent(const ElementForces& elements, std::span<const std::unique_ptr<ForceTerm>> terms,
-                 std::span<const double> lumped_mass, const Damping& damping);
+                 const Interactions& interactions, std::span<const double> lumped_mass, const Damping& damping);
 
     bool symmetric() const override { return symmetric_; }
     std::size_t n_nonzero() const override { return 4 * places().neighbours.size(); }
@@ -32,12 +33,12 @@ public:
 private:
     /// Where everything stands in the matrix: the rows of a node one behind the other, a pair of entries per neighbour.
     struct Places {
-        std::vector<std::int32_t> neighbours;         ///< nodes with which a node shares an element, itself among them
+        std::vector<std::int32_t> neighbours;         ///< nodes that a node is coupled with, itself among them
         std::vector<std::int32_t> neighbour_starts;   ///< shape (nodes + 1)
         std::vector<std::int32_t> row_pairs;          ///< pairs of entries in either row of a node: its neighbours
         std::vector<std::vector<PairNumber>> blocks;  ///< ElementBlock::MatrixPlaces::blocks of each block
         std::vector<PairNumber> diagonal;             ///< each node's own 2 x 2 block
-        std::vector<std::vector<PairNumber>> terms;   ///< what each term couples
+        std::vector<std::vector<PairNumber>> terms;   ///< what each term couples, and each interaction behind them
 
         /// Where the 2 x 2 block of two nodes begins.
         PairNumber of(std::int32_t row_node, std::int32_t column_node) const;
@@ -52,18 +53,20 @@ private:
     template <class BlockPlaces>
     void add_elements(const State& accepted, const Trial& trial, const Factors& factors, BlockPlaces block_places,
                       double* values) const;
-    std::span<const ForceTerm::Stiffness> stiffness(std::size_t term, const Trial& trial) const;
+    /// Of a term, or, behind them, of an interaction.
+    std::span<const ForceTerm::Stiffness> stiffness(std::size_t term, const State& accepted, const Trial& trial) const;
 
     const ElementForces& elements_;
     std::span<const std::unique_ptr<ForceTerm>> terms_;
+    const Interactions& interactions_;
     std::span<const double> mass_;
     const Damping& damping_;
     bool symmetric_;
 
-    std::vector<PackRange> chunks_;                             ///< by colour
-    std::vector<std::size_t> colour_starts_;                    ///< in chunks_
-    mutable std::vector<ForceTerm::Stiffness> term_stiffness_;  ///< scratch
-    std::vector<std::vector<std::array<std::int32_t, 2>>> couplings_;
+    std::vector<PackRange> chunks_;                                    ///< by colour
+    std::vector<std::size_t> colour_starts_;                           ///< in chunks_
+    mutable std::vector<ForceTerm::Stiffness> term_stiffness_;         ///< scratch
+    std::vector<std::vector<std::array<std::int32_t, 2>>> couplings_;  ///< of terms, then of interactions
     mutable std::unique_ptr<Places> places_;
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <random>
 #include <utility>
@@ -66,7 +67,9 @@ struct SolidDescription {
 };
 
 /// As the program builds it, absorbing boundaries included.
-inline Solid make_solid(Mesh mesh, const SolidDescription& what) {
+/// @param add  adds parts that a description has no words for
+inline Solid make_solid(Mesh mesh, const SolidDescription& what,
+                        const std::function<void(SolidSystem::Parts&)>& add = {}) {
     Solid solid{std::move(mesh), nullptr};
     SolidSystem::Parts parts;
     parts.blocks = make_blocks(solid.mesh, what.solid, what.materials);
@@ -85,6 +88,7 @@ inline Solid make_solid(Mesh mesh, const SolidDescription& what) {
             solid.mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
             what.solid.thickness);
     }
+    if (add) add(parts);
     solid.system = std::make_unique<SolidSystem>(solid.mesh, std::move(parts));
     return solid;
 }

@@ -1,0 +1,41 @@
+#include "model/interaction.hpp"
+
+#include <utility>
+
+namespace gneiss {
+
+Interactions::Interactions(std::vector<std::unique_ptr<Interaction>> all, std::size_t history_offset)
+    : all_(std::move(all)), starts_{history_offset} {
+    for (const auto& one : all_) starts_.push_back(starts_.back() + one->n_history());
+}
+
+void Interactions::initial_history(std::span<double> history) const {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->initial_history(part(i, history));
+}
+
+void Interactions::add_force(const State& accepted, const Trial& trial, std::span<double> f,
+                             std::span<double> updated) const {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->add_force(trial, part(i, accepted), f, part(i, updated));
+}
+
+double Interactions::omega_squared(const State& accepted, const Trial& trial,
+                                   std::span<const double> lumped_mass) const {
+    double sum = 0;  // eigenvalues of a sum are at most the sum of the largest ones
+    for (std::size_t i = 0; i < all_.size(); ++i) sum += all_[i]->omega_squared(trial, part(i, accepted), lumped_mass);
+    return sum;
+}
+
+void Interactions::add_stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->add_stiffness_bound(trial, part(i, accepted), bound);
+}
+
+void Interactions::add_stored(const State& state, StoredEnergies& energies) const {
+    const Trial at = Trial::of(state);
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->add_stored(at, part(i, state), energies);
+}
+
+void Interactions::add_dissipated(const State& from, State& to) const {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->add_dissipated(part(i, from), part(i, to), to.path);
+}
+
+}  // namespace gneiss
