@@ -49,11 +49,11 @@ double left_over(int steps_per_leg) {
 }
 
 // The trapezoidal rule of the work is of order 2; kinks that fall within a step make single runs uneven, so the order
-// is taken over a factor of 16. The tour dissipates some hundred J/m2.
+// is taken over a factor of 16, with a factor of 2 for kinks. The tour dissipates some hundred J/m2.
 TYPED_TEST(CohesionLaw, AlongAnyPath_WorkIsStoredPlusFracturePlusFriction) {
     const double coarse = left_over<TypeParam>(50), fine = left_over<TypeParam>(800);
-    EXPECT_LT(std::abs(coarse), 0.5);
-    EXPECT_LT(std::abs(fine), 0.5 / 100);  // 1/256, with room for kinks
+    EXPECT_LT(std::abs(coarse), 0.3);
+    EXPECT_LT(std::abs(fine), 0.3 / 128);
 }
 
 TYPED_TEST(CohesionLaw, AlongAnyPath_DissipationNeverFallsAndDamageNeverHeals) {
@@ -182,6 +182,8 @@ TYPED_TEST(CohesionLaw, InPacks_DoesInEachLaneWhatItDoesAlone) {
         const Pack o = pack_of([&](std::size_t lane) { return place(lane).opening * peak_opening; });
         const Pack s = pack_of([&](std::size_t lane) { return place(lane).slip * peak_slip; });
         const auto t = TypeParam::traction(packed, history, o, s);
+        using D = Dual<2, Pack>;
+        const auto tangent = TypeParam::traction(packed, history, D::variable(o, 0), D::variable(s, 1));
         const auto after = TypeParam::advance(packed, history, o, s);
         const Pack stored = TypeParam::stored_energy(packed, after, o, s);
         for (std::size_t lane = 0; lane < pack_width; ++lane) {
@@ -190,6 +192,11 @@ TYPED_TEST(CohesionLaw, InPacks_DoesInEachLaneWhatItDoesAlone) {
             const auto alone = TypeParam::traction(p, one, o_1, s_1);
             EXPECT_NEAR(lanes(t.normal)[lane], alone.normal, round_off * 60e6);
             EXPECT_NEAR(lanes(t.shear)[lane], alone.shear, round_off * 60e6);
+            const auto slopes = TypeParam::traction(p, one, Dual<2>::variable(o_1, 0), Dual<2>::variable(s_1, 1));
+            for (const int i : {0, 1}) {
+                EXPECT_NEAR(lanes(tangent.normal.derivative[i])[lane], slopes.normal.derivative[i], round_off * 1e13);
+                EXPECT_NEAR(lanes(tangent.shear.derivative[i])[lane], slopes.shear.derivative[i], round_off * 1e13);
+            }
             const auto expected = TypeParam::advance(p, one, o_1, s_1);
             const auto found = lane_of<typename TypeParam::template History<double>>(after, lane);
             for (const auto member : expected.members)
