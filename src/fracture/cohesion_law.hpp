@@ -18,7 +18,8 @@
 // Intrinsic joints are elastic with k, in shear too, until |t_s| = c_0 + tan phi_i <-t_n> (or the ellipse, in
 // tension). There shear is parted into friction at its limit, tau_f, and the cohesive rest. Two springs that carry
 // tau_f and c_0 hold less energy than one that carries both, by tau_f c_0/k: friction at its limit over the slip
-// c_0/k. It is booked as friction. Extrinsic points start parted, by `insert` (envelope.hpp).
+// c_0/k. It is booked as friction. Extrinsic points start parted, by `insert_point`
+// (envelope.hpp); the energy of their offsets is lost with them, so that a complete failure dissipates G and that.
 
 #include "fracture/cohesion_history.hpp"
 #include "fracture/cohesion_properties.hpp"

@@ -74,8 +74,7 @@ struct YCodeLaw {
         after.slip = slip;
         after.slider = step.friction.slider;
         after.friction = T(accepted.friction) + step.friction.dissipated;
-        after.fracture = T(accepted.fracture);
-        if (any_lane(plain(step.damage) > 0.0)) after.fracture += fracture_dissipation(p, accepted, apart, along, step);
+        after.fracture = T(accepted.fracture) + fracture_dissipation(p, accepted, apart, along, step);
         return after;
     }
 
@@ -161,17 +160,15 @@ private:
         const T o_0 = choose(plain(apart) > o_m, T(o_m), T(positive_part(accepted.opening)));
         const T s_0 = choose(plain(along) > s_m, T(s_m), T(magnitude(accepted.slip)));
         const auto grows = plain(step.damage) > accepted.damage;
-        // what only moves below o_m and s_m is elastic
         const auto stretches = plain(step.opening_end) > o_m || plain(step.slip_end) > s_m;
+        if (!any_lane(grows || stretches)) return T(0.0);
         const T energy0 = unit_energy(p, o_0, s_0, T(o_m), T(s_m));
         const T energy1 = unit_energy(p, apart, along, step.opening_end, step.slip_end);
         const Softening<T> z0 = softening_and_integral(T(accepted.damage)), z1 = softening_and_integral(step.damage);
         const T growth = choose(grows, T(step.damage - T(accepted.damage)), T(1.0));
         const T mean = choose(grows, T((z1.integral - z0.integral) / growth), z0.value);
         const T ends = p.tensile_strength * (step.opening_end - T(o_m)) + p.cohesion * (step.slip_end - T(s_m));
-        const T dissipated =
-            mean * step.part * ((1.0 / 3) * ends + energy1 - energy0) + z0.value * energy0 - z1.value * energy1;
-        return choose(grows || stretches, dissipated, T(0.0));
+        return mean * step.part * ((1.0 / 3) * ends + energy1 - energy0) + z0.value * energy0 - z1.value * energy1;
     }
 };
 
