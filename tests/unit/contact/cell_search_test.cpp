@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "contact/radix_sort.hpp"
+#include "support/one_thread.hpp"
 #include "unit/contact/contact_testing.hpp"
 
 namespace gneiss {
