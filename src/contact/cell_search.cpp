@@ -18,8 +18,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Beyond, a double does not tell neighbouring cells apart.
-constexpr double most_cells = 4503599627370496.0;  // 2^52
+/// Positions further out are not known to 1e-3 of a cell.
+constexpr double most_cells = 1099511627776.0;  // 2^40
 
 /// More sizes of cells than that share the largest: elements do not span a factor of 2^31.
 constexpr int most_levels = 32;
@@ -49,11 +49,11 @@ public:
         return inside;
     }
 
-    /// False only if one half-plane leaves out the whole square.
-    bool touches_square(double x_min, double y_min, double side) const {
+    /// False only if one half-plane leaves out the whole box.
+    bool touches_box(double x_min, double x_max, double y_min, double y_max) const {
         bool touches = true;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double x = normal_[i].x > 0 ? x_min : x_min + side, y = normal_[i].y > 0 ? y_min : y_min + side;
+            const double x = normal_[i].x > 0 ? x_min : x_max, y = normal_[i].y > 0 ? y_min : y_max;
             touches &= normal_[i].x * x + normal_[i].y * y <= offset_[i];
         }
         return touches;
@@ -132,31 +132,35 @@ void CellSearch::measure_triangles(const ContactSurroundings& what, double skin)
         }
     });
 
-    // Cells of a level are the smallest power of two that no box of the level exceeds.
-    const auto exponent = [&](const Box& box) {
-        const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
-        return extent > 0 ? std::ilogb(extent) + 1 : std::numeric_limits<int>::min();
-    };
-    int largest = std::numeric_limits<int>::min();
     for (std::size_t k = 0; k < what.x.size(); ++k)
         if (!std::isfinite(what.x[k]))
             throw RecoverableError(fmt::format("contact search: position of node {} is not finite", k / 2));
-    for (const Box& box : boxes_) largest = std::max(largest, exponent(box));
-    if (largest == std::numeric_limits<int>::min()) largest = 0;  // all are points, and there is no skin
-    // level 0 has the largest cells
+
+    // Level 0 has cells as large as the largest box, each further one cells half as large: the sizes of a uniform mesh
+    // share one level.
+    const auto extent = [](const Box& box) { return std::max(box.x_max - box.x_min, box.y_max - box.y_min); };
+    double largest = 0;
+    for (const Box& box : boxes_) largest = std::max(largest, extent(box));
+    if (largest == 0) largest = 1;  // all are points, and there is no skin
+    largest *= 1 + 1e-3;            // a box is smaller than a cell, and stays so when positions are rounded to cells
     const auto level_of = [&](const Box& box) {
-        const auto below = static_cast<std::int64_t>(largest) - exponent(box);
-        return static_cast<std::size_t>(std::min<std::int64_t>(below, most_levels - 1));
+        const double ratio = largest / extent(box);  // > 1
+        return ratio < std::ldexp(1.0, most_levels - 1) ? static_cast<std::size_t>(std::ilogb(ratio))
+                                                        : std::size_t{most_levels - 1};
     };
     std::array<bool, most_levels> occurs{};
-    for (const Box& box : boxes_) occurs[level_of(box)] = true;
+    for (std::size_t t = 0; t < boxes_.size(); ++t) {
+        const std::size_t level = level_of(boxes_[t]);
+        levels_[t] = static_cast<std::int8_t>(level);
+        occurs[level] = true;
+    }
     std::array<std::int8_t, most_levels> number{};
     cells_per_m_.clear();
-    for (int level = 0; level < most_levels; ++level) {
-        number[static_cast<std::size_t>(level)] = static_cast<std::int8_t>(cells_per_m_.size());
-        if (occurs[static_cast<std::size_t>(level)]) cells_per_m_.push_back(std::ldexp(1.0, level - largest));
+    for (std::size_t level = 0; level < most_levels; ++level) {
+        number[level] = static_cast<std::int8_t>(cells_per_m_.size());
+        if (occurs[level]) cells_per_m_.push_back(std::ldexp(1.0, static_cast<int>(level)) / largest);
     }
-    for (std::size_t t = 0; t < boxes_.size(); ++t) levels_[t] = number[level_of(boxes_[t])];
+    for (std::int8_t& level : levels_) level = number[static_cast<std::size_t>(level)];
 }
 
 void CellSearch::choose_numbers(std::size_t n_triangles, std::size_t n_points) {
@@ -178,17 +182,17 @@ void CellSearch::choose_numbers(std::size_t n_triangles, std::size_t n_points) {
     if (!(farthest * finest < most_cells)) {
         const auto at = std::max_element(searched_.begin(), searched_.end(),
                                          [](double p, double q) { return std::abs(p) < std::abs(q); });
-        throw RecoverableError(fmt::format("contact search: node {} is {:.3g} m from the origin, more than 2^52 cells",
+        throw RecoverableError(fmt::format("contact search: node {} is {:.3g} m from the origin, more than 2^40 cells",
                                            (at - searched_.begin()) / 2, farthest));
     }
     const auto bits_across = [&](double low, double high) {
-        return bits_for(static_cast<std::uint64_t>((high - low) * finest) + 3);
+        return bits_for(static_cast<std::uint64_t>((high - low) * finest) + 4);
     };
     const int level_bits = bits_for(cells_per_m_.size());
     item_bits_ = std::max(bits_for(n_triangles), bits_for(n_points));
-    // A row and a column at least have two numbers each, so that the cells of one triangle differ.
-    column_bits_ = std::max(1, bits_across(x_min, x_max));
-    row_bits_ = std::max(1, bits_across(y_min, y_max));
+    // at least four rows and columns: the cells of one triangle differ
+    column_bits_ = bits_across(x_min, x_max);
+    row_bits_ = bits_across(y_min, y_max);
     const int available = 64 - item_bits_ - level_bits;
     if (column_bits_ + row_bits_ > available) {
         const int half = available / 2;
@@ -217,11 +221,15 @@ void CellSearch::render_triangles(const ContactSurroundings& what, double skin) 
         const std::int64_t j_min = cell_of(box.y_min, cells), j_max = cell_of(box.y_max, cells);
         const bool several = i_min != i_max && j_min != j_max;  // else the box has no corner that could stay empty
         const WidenedTriangle triangle(what.x, what.triangles[t], skin);
+        // A point near the edge of a cell may have been rounded into it from outside.
+        const double rounding = 1e-3 * side;
         for (std::int64_t j = j_min; j <= j_max; ++j)
-            for (std::int64_t i = i_min; i <= i_max; ++i)
+            for (std::int64_t i = i_min; i <= i_max; ++i) {
+                const double x = static_cast<double>(i) * side, y = static_cast<double>(j) * side;
                 if (!several ||
-                    triangle.touches_square(static_cast<double>(i) * side, static_cast<double>(j) * side, side))
+                    triangle.touches_box(x - rounding, x + side + rounding, y - rounding, y + side + rounding))
                     rendered_.push_back(cell_number(levels_[t], i, j) << item_bits_ | t);
+            }
     }
     radix_sort(rendered_, scratch_, item_bits_, all_bits_);
 }

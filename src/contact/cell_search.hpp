@@ -4,11 +4,11 @@
 // International Journal for Numerical Methods in Engineering 66, 46-71: targets are rendered onto the cells they touch,
 // contactor points dropped into theirs, both sorted by cell and swept.
 //
-// Cells come in sizes of powers of two. A triangle is rendered onto cells larger than its own box with the skin, so it
-// touches four cells at most, whatever the sizes of the others; points are dropped into the cells of every size that
-// occurs. Triangles of very different sizes therefore cost one more row of points per factor of two between them. Cells
-// that are far apart share a number once there are more than fit into it: such strangers are told apart by geometry, so
-// that a fragment flying off costs nothing but wider numbers.
+// Each size of cells is half the next larger one. A triangle is rendered onto the smallest that exceed its own box with
+// the skin, so it touches four cells at most, whatever the sizes of the others; points are dropped into the cells of
+// every size that occurs. Triangles of very different sizes therefore cost one more row of points per factor of two
+// between them. Cells that are far apart share a number once there are more than fit into it: such strangers are told
+// apart by geometry, so that a fragment flying off costs nothing but wider numbers.
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ public:
     /// inner side of each of its edges. So every pair closer than the skin is among them.
     /// @param skin  m, >= 0: pairs remain complete while no node has moved more than half of it
     /// @returns ascending by point, then triangle, the same for any number of threads; valid until the next search
-    /// @throws RecoverableError if a position is not finite, or further from the origin than 2^52 cells; the message
+    /// @throws RecoverableError if a position is not finite, or further from the origin than 2^40 cells; the message
     /// gives the node
     std::span<const ContactCandidate> search(const ContactSurroundings& what, double skin);
 

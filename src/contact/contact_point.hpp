@@ -94,11 +94,11 @@ struct ContactLaw {
 /// What a pair remembers. All zero: not in touch.
 template <class V>
 struct ContactHistory {
-    V in_touch = V(0.0);                 ///< 1 or 0
+    V in_touch = V(0.0);             ///< 1 or 0
     Vec2<V> anchor{V(0.0), V(0.0)};  ///< A, m, in the reference shape of the target
     Vec2<V> slip{V(0.0), V(0.0)};    ///< S = s t, elastic slip, m
-    V slip_limit = V(0.0);               ///< largest |s| that friction held, m
-    V deepest = V(0.0);                  ///< largest phi since contact began, m
+    V slip_limit = V(0.0);           ///< largest |s| that friction held, m
+    V deepest = V(0.0);              ///< largest phi since contact began, m
 };
 
 template <class T, class V>
