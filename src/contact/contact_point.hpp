@@ -114,9 +114,9 @@ struct ContactResponse {
     ContactHistory<V> next;              ///< what accepting this state would leave
 };
 
-/// Friction work between the accepted state and a trial while the spring goes from s_0 to s and the limit from l_0 to
-/// l, both in proportion: sliding begins where they meet, and the anchor moves by what is too much from there.
-/// @param s  beyond the limit by `excess` > 0, or below where excess <= 0: no work
+/// Friction work, J, on the way from the accepted state to a trial, where the stretch of the spring would go from s_0
+/// to s and the limit goes from l_0 to l, both in proportion: sliding begins where they meet, and from there the anchor
+/// moves by what is too much. Exact however the way is cut into steps. 0 where the limit is not met.
 template <class V>
 V sliding_work(const V& stiffness, const V& s_0, const V& s, const V& l_0, const V& l) {
     const V direction = choose(s > V(0.0), V(1.0), V(-1.0));

@@ -103,6 +103,16 @@ TEST(CellSearch, SizesOverFourDecades_AreThoseOfBruteForce) {
         for (const double skin : {0.0, 1e-3}) expect_complete(spread(300, 1, 1e-4, 1.0, seed), skin);
 }
 
+TEST(CellSearch, TipBeforeASharpCorner_EndsAtTheBox) {
+    // An angle of 0.02: its half-planes, moved out by the skin, meet ten lengths before the corner.
+    Soup soup;
+    soup.x = {0, 0, 10, -0.1, 10, 0.1, -0.5, 0, -0.05, 0, 5, 0};
+    soup.triangles = {{0, 1, 2}};
+    soup.points = {{3, 4, 5}, {3, 4, 5}, {0, 0, 0}, {1, 1, 1}};
+    soup.joined = {0, 1, 2, 3, 4, 5};
+    EXPECT_THAT(searched(soup, 0.1), ElementsAre(ContactCandidate{1, 0}, ContactCandidate{2, 0}));
+}
+
 TEST(CellSearch, EverythingInOneCell_IsThatOfBruteForce) {
     // Same place, same size: all overlap, every point has dozens of triangles.
     expect_complete(spread(150, 1e-3, 1, 1.01, 3), 0.01);

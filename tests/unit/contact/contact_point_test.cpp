@@ -80,7 +80,14 @@ void rebound(Pair& pair) {
     pair.history.deepest = 1.1 * pair.response().depth;
 }
 
-constexpr std::array situations{+[](Pair&) {}, &stick, &slide, &rebound};
+/// ... and goes on deeper than ever, along p_n, losing what will not come back.
+void load(Pair& pair) {
+    pair.law.returned = 0.64;
+    stick(pair);
+    pair.history.deepest = 0.9 * pair.response().depth;
+}
+
+constexpr std::array situations{+[](Pair&) {}, &stick, &slide, &rebound, &load};
 constexpr std::array kinds{Kind::rising, Kind::bubble};
 
 /// Energy that the pair would give back, J.
@@ -167,7 +174,7 @@ TEST(ContactPoint, UndeformedHalfSpace_IsALinearSpring) {
 }
 
 TEST(ContactPoint, Forces_AreTheGradientOfWhatIsStored) {
-    // Loading, sticking and rebounding store what they take; sliding dissipates.
+    // Pressing, sticking and rebounding store what they take; sliding and loading with restitution dissipate.
     std::mt19937 random(3);
     for (const Kind kind : kinds)
         for (const auto situation : {situations[0], situations[1], situations[3]}) {
@@ -243,7 +250,7 @@ TEST(ContactPoint, LanesOfAPack_AreWhatEachAloneIs) {
         std::vector<Pair> pairs;
         for (std::size_t k = 0; k < pack_width; ++k) {
             pairs.push_back(deformed_pair(kinds[(k + i) % 2], random));
-            situations[(k + i) % 4](pairs.back());
+            situations[(k + i) % situations.size()](pairs.back());
         }
         const auto pack = [&](auto value) { return pack_of([&](std::size_t k) { return value(pairs[k]); }); };
         std::array<Vec2<Pack>, 3> x;
@@ -305,6 +312,18 @@ TEST(ContactPoint, RigidMotion_TurnsTheForcesAndNothingElse) {
             EXPECT_NEAR(after.next.slip.x, before.next.slip.x, round_off);
             EXPECT_NEAR(after.dissipated_friction, before.dissipated_friction, round_off);
         }
+}
+
+TEST(ContactPoint, SlidingInADeformedBody_MeetsCoulombsLimit) {
+    std::mt19937 random(10);
+    for (const Kind kind : kinds) {
+        Pair pair = deformed_pair(kind, random);
+        slide(pair);
+        Pair smooth = pair;
+        smooth.law.friction = 0;
+        const V2 normal = smooth.response().force, friction = pair.response().force - normal;
+        EXPECT_NEAR(std::sqrt(dot(friction, friction)), pair.law.friction * std::sqrt(dot(normal, normal)), round_off);
+    }
 }
 
 TEST(ContactPoint, DeeperThanThePotentialReaches_IsReported) {

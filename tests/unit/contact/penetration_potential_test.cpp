@@ -242,5 +242,27 @@ TEST(PenetrationPotential, Reach_EndsBelowCrestsAndCapsOnly) {
     EXPECT_NEAR(reach_in_strip(0.5, 0), trusted_depth * 0.5 * size, round_off);
 }
 
+TEST(PenetrationPotential, CappedNodes_AreCrestsWhereTheCapItselfRises) {
+    // between the small triangles at the hole and the large ones outside
+    const Body body = plate_with_hole(false);
+    PenetrationPotential potential(body.nodes, body.triangles, 1);
+    std::vector<double> caps;
+    for (std::size_t n = 0; n < body.nodes.size(); ++n) caps.push_back(potential.at_node(static_cast<int>(n)));
+    potential.add_boundary(body.boundary);
+    int all_capped = 0;
+    for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+        double highest = 0;
+        bool capped = true;
+        for (const std::int32_t n : body.triangles[t]) {
+            capped = capped && potential.at_node(n) == caps[n];
+            highest = std::max(highest, caps[n]);
+        }
+        if (!capped) continue;
+        EXPECT_EQ(potential.of_triangle(t).reach, trusted_depth * highest);
+        ++all_capped;
+    }
+    EXPECT_GT(all_capped, 100);
+}
+
 }  // namespace
 }  // namespace gneiss
