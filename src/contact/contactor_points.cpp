@@ -1,0 +1,33 @@
+#include "contact/contactor_points.hpp"
+
+#include "mesh/geometry.hpp"
+
+namespace gneiss {
+
+ContactorPoints contactor_points(std::span<const BoundaryEdge> edges, std::span<const std::array<double, 2>> nodes) {
+    ContactorPoints points;
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> point_of(nodes.size(), none);
+    const auto append = [&](std::int32_t a, std::int32_t b, double weight_b, double length) {
+        points.a.push_back(a);
+        points.b.push_back(b);
+        points.weight_b.push_back(weight_b);
+        points.length.push_back(length);
+    };
+    for (const BoundaryEdge& edge : edges) {
+        const double length =
+            distance(nodes[static_cast<std::size_t>(edge.a)], nodes[static_cast<std::size_t>(edge.b)]);
+        for (const std::int32_t node : {edge.a, edge.b}) {
+            std::int32_t& point = point_of[static_cast<std::size_t>(node)];
+            if (point == none) {
+                point = static_cast<std::int32_t>(points.size());
+                append(node, node, 0, 0);
+            }
+            points.length[static_cast<std::size_t>(point)] += length / 6;
+        }
+        append(edge.a, edge.b, 0.5, length * 2 / 3);
+    }
+    return points;
+}
+
+}  // namespace gneiss
