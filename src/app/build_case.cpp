@@ -102,7 +102,6 @@ Case build_case(CaseOptions options) {
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
-    check_linear_solver(options.integrator, *built.system);
     built.reactions = ReactionTable(built.mesh, options.boundaries, built.system->constraints());
     built.options = std::move(options);
     return built;

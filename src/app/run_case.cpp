@@ -6,6 +6,7 @@
 #include "app/build_case.hpp"
 #include "app/checkpoints.hpp"
 #include "app/field_frames.hpp"
+#include "app/make_integrator.hpp"
 #include "app/run_summary.hpp"
 #include "app/schedule.hpp"
 #include "app/tables.hpp"
@@ -93,6 +94,7 @@ Run::Run(const RunArguments& arguments) : arguments_(arguments) {
     deck_text_ = deck_text(arguments);
     fingerprint_ = fingerprint_text(deck_text_);
     case_ = build_case(std::move(options));
+    check_linear_solver(case_.options.integrator, *case_.system);
     schedule_.emplace(case_.options);
     state_ = case_.system->initial_state();
     if (arguments.restart) load_restart();
