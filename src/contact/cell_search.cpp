@@ -247,6 +247,15 @@ void CellSearch::drop_points() {
             }
     });
     radix_sort(dropped_, scratch_, item_bits_, all_bits_);
+    dropped_x_.resize(dropped_.size());
+    dropped_y_.resize(dropped_.size());
+    const std::uint64_t item = (std::uint64_t{1} << item_bits_) - 1;
+    parallel_ranges(dropped_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            dropped_x_[k] = point_x_[dropped_[k] & item];
+            dropped_y_[k] = point_y_[dropped_[k] & item];
+        }
+    });
 }
 
 void CellSearch::sweep(const ContactSurroundings& what, double skin) {
@@ -256,6 +265,8 @@ void CellSearch::sweep(const ContactSurroundings& what, double skin) {
     for (auto& found : found_) found.clear();
     parallel_ranges(dropped_.size(), [&](std::size_t first, std::size_t last) {
         std::vector<ContactCandidate>& found = found_[first / parallel_range];
+        constexpr std::size_t block_size = 64;
+        std::array<std::size_t, block_size> near;
         auto triangle = std::lower_bound(rendered_.begin(), rendered_.end(), dropped_[first] & ~item);
         for (std::size_t run = first; run < last;) {
             const std::uint64_t cell = dropped_[run] >> item_bits_;
@@ -270,14 +281,22 @@ void CellSearch::sweep(const ContactSurroundings& what, double skin) {
                 const std::array<std::int32_t, 3> joined{what.joined[static_cast<std::size_t>(nodes[0])],
                                                          what.joined[static_cast<std::size_t>(nodes[1])],
                                                          what.joined[static_cast<std::size_t>(nodes[2])]};
-                for (std::size_t k = run; k < run_end; ++k) {
-                    const std::size_t p = dropped_[k] & item;
-                    const double x = point_x_[p], y = point_y_[p];
-                    if (x < box.x_min || x > box.x_max || y < box.y_min || y > box.y_max) continue;
-                    bool apart = true;
-                    for (const std::int32_t node : joined) apart &= node != joined_a_[p] && node != joined_b_[p];
-                    if (apart && widened.contains(x, y))
-                        found.push_back({static_cast<std::int32_t>(p), static_cast<std::int32_t>(t)});
+                for (std::size_t block = run; block < run_end; block += block_size) {
+                    // the box first, without branches: what they would predict is a toss-up
+                    const std::size_t block_end = std::min(block + block_size, run_end);
+                    std::size_t n_near = 0;
+                    for (std::size_t k = block; k < block_end; ++k) {
+                        const double x = dropped_x_[k], y = dropped_y_[k];
+                        near[n_near] = k;
+                        n_near += (x >= box.x_min) & (x <= box.x_max) & (y >= box.y_min) & (y <= box.y_max);
+                    }
+                    for (std::size_t i = 0; i < n_near; ++i) {
+                        const std::size_t p = dropped_[near[i]] & item;
+                        bool apart = true;
+                        for (const std::int32_t node : joined) apart &= node != joined_a_[p] && node != joined_b_[p];
+                        if (apart && widened.contains(dropped_x_[near[i]], dropped_y_[near[i]]))
+                            found.push_back({static_cast<std::int32_t>(p), static_cast<std::int32_t>(t)});
+                    }
                 }
             }
             run = run_end;

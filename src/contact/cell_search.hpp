@@ -87,6 +87,7 @@ private:
 
     // (cell, item) in one number each, sorted by cell
     std::vector<std::uint64_t> rendered_, dropped_, scratch_;
+    std::vector<double> dropped_x_, dropped_y_;  // positions in the order of dropped_
 
     std::vector<std::vector<ContactCandidate>> found_;  // per range of dropped points
     std::vector<std::int32_t> first_of_point_;

@@ -13,7 +13,8 @@ namespace gneiss {
 /// @param scratch  resized to the same length; its contents are of no use afterwards
 inline void radix_sort(std::vector<std::uint64_t>& numbers, std::vector<std::uint64_t>& scratch, int first_bit,
                        int last_bit) {
-    constexpr int digit_bits = 8;  // 256 streams of writes: they fit into the buffers of a core
+    constexpr int digit_bits =
+        11;  // the cells of a million triangles in two digits; the counts fit into the first cache
     scratch.resize(numbers.size());
     for (int shift = first_bit; shift < last_bit; shift += digit_bits) {
         const int bits = last_bit - shift < digit_bits ? last_bit - shift : digit_bits;
