@@ -106,7 +106,7 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
 
     hold_constraints(system, state, why);
     if (anew && !system.constraints().empty()) evaluate_bound(system, state);  // they may have strained the solid
-    if (why == StartReason::fresh && !next_.z.empty()) {
+    if (why == StartReason::fresh && remembers()) {
         // prescribed displacements may have strained the solid
         system.force_and_update(state, Trial::of(state), a_, next_.z, next_.history);
         state.z.swap(next_.z);
@@ -221,7 +221,7 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
 
 void CentralDifference::evaluate(const SemiDiscrete& system, const State& state) {
     const Trial trial{next_.t, next_.last_event, next_.u, next_.v, {}};
-    if (!next_.z.empty())
+    if (remembers())
         system.force_and_update(state, trial, a_, next_.z, next_.history);
     else
         system.force(state, trial, a_);

@@ -69,6 +69,9 @@ private:
     void kick_special(const SemiDiscrete& system, const State& state);
     void add_path_energies(const SemiDiscrete& system, const State& state);
 
+    /// Whether accepting a step changes more than u and v.
+    bool remembers() const { return !next_.z.empty() || !next_.history.empty(); }
+
     // Steps that nobody sees keep v(n+1/2) in next_.v; state.v holds v(n) on special degrees of freedom alone.
     bool can_pass_unseen(const SemiDiscrete& system) const;
     /// Accepts a step unseen.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "fracture/cohesion.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
@@ -32,19 +33,20 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
     const std::vector<BoundaryEdge> edges = absorbing_edges(mesh, options.boundaries);
     // Without blocks the materials are at fault: that is reported already.
     if (edges.empty() || blocks.empty()) return {};
-    std::vector<PlaneStiffness> stiffness(mesh.n_elements());
-    for (const auto& block : blocks)
-        for (std::size_t local = 0; local < block->n_elements(); ++local)
-            stiffness[static_cast<std::size_t>(block->element(local))] =
-                plane_stiffness(block->tangent_constants(local), block->axis_angle(local), block->density());
+    const std::vector<PlaneStiffness> stiffness = element_stiffness(mesh, blocks);
     return absorbing_blocks(
         mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
         options.solid.thickness);
 }
 
 /// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
-void need_supports(const Mesh& mesh, const ConstraintSet& constraints) {
-    const std::vector<FreePart> free = free_parts(mesh, constraints.constraints());
+void need_supports(const Mesh& mesh, const SolidSystem::Parts& parts) {
+    std::vector<std::array<std::int32_t, 2>> bonds;
+    for (const auto& interaction : parts.interactions) {
+        const auto more = interaction->couplings();
+        bonds.insert(bonds.end(), more.begin(), more.end());
+    }
+    const std::vector<FreePart> free = free_parts(mesh, parts.constraints.constraints(), bonds);
     if (!free.empty())
         throw InputError("[[boundary]]",
                          "too few supports for a static solution, which leaves free " + describe(free, mesh));
@@ -82,6 +84,9 @@ Case build_case(CaseOptions options) {
     built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
     for (const std::string& warning : report.warnings) built.warnings.push_back("mesh: " + warning);
 
+    std::vector<JointEdge> joints;
+    if (options.fracture.method != FractureOptions::Method::none) joints = open_all_sides(built.mesh);
+
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
     collect(problems, [&] { parts.blocks = make_blocks(built.mesh, options.solid, options.materials); });
@@ -89,16 +94,24 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.constraints = make_constraints(built.mesh, options.boundaries); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
     collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
+    if (options.fracture.method != FractureOptions::Method::none && !parts.blocks.empty())
+        collect(problems, [&] {
+            parts.interactions.push_back(make_cohesion(built.mesh, joints, parts.blocks, options.materials,
+                                                       options.solid, options.fracture, built.warnings));
+        });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
     collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
-    if (built.integrator->is_static()) need_supports(built.mesh, parts.constraints);
+    if (built.integrator->is_static()) need_supports(built.mesh, parts);
 
     for (const double time : options.output.field_times)
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
+    if (options.fracture.method == FractureOptions::Method::none &&
+        std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
+        built.warnings.push_back("material.strength: has no effect without fracture.method");
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));

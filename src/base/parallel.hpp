@@ -14,7 +14,7 @@ inline constexpr std::ptrdiff_t parallel_range = 4096;
 template <class Body>
 void parallel_ranges(std::size_t n, Body body) {
     const auto end = static_cast<std::ptrdiff_t>(n);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (end > parallel_range)  // no threads for a single range
     for (std::ptrdiff_t first = 0; first < end; first += parallel_range)
         body(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + parallel_range, end)));
 }

@@ -288,9 +288,8 @@ void Joints<Law>::add_dissipated(std::span<const double> from, std::span<const d
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 4>> joint_nodes_along(const Mesh& mesh, const InnerSides& inner,
-                                                           std::span<const std::int32_t> sides) {
-    std::vector<std::array<std::int32_t, 4>> all;
+std::vector<JointEdge> joint_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> sides) {
+    std::vector<JointEdge> all;
     for (const std::int32_t side : sides) {
         const auto& [left, right] = inner.sides()[static_cast<std::size_t>(side)];
         const auto a = side_nodes(mesh.kind, left.side), b = side_nodes(mesh.kind, right.side);
@@ -298,7 +297,10 @@ std::vector<std::array<std::int32_t, 4>> joint_nodes_along(const Mesh& mesh, con
         const std::int32_t* of_right = mesh.element(static_cast<std::size_t>(right.element));
         for (std::size_t k = 0; k + 1 < a.size(); ++k)  // the right element walks the other way
             all.push_back(
-                {of_left[a[k]], of_left[a[k + 1]], of_right[b[b.size() - 1 - k]], of_right[b[b.size() - 2 - k]]});
+                {{of_left[a[k]], of_left[a[k + 1]], of_right[b[b.size() - 1 - k]], of_right[b[b.size() - 2 - k]]},
+                 left.element,
+                 right.element,
+                 side});
     }
     return all;
 }

@@ -19,10 +19,16 @@ struct Joint {
     CohesionProperties<double> properties;
 };
 
-/// Nodes of the joints along sides of elements, as in Joint: one for a CST, two for a composite.
+/// A sub-edge along which two elements touch.
+struct JointEdge {
+    std::array<std::int32_t, 4> nodes;  ///< as in Joint
+    std::int32_t left, right;           ///< elements
+    std::int32_t side;                  ///< number of the inner side
+};
+
+/// The sub-edges of sides of elements: one for a CST, two for a composite.
 /// @param sides  numbers of inner sides, all of them open
-std::vector<std::array<std::int32_t, 4>> joint_nodes_along(const Mesh& mesh, const InnerSides& inner,
-                                                           std::span<const std::int32_t> sides);
+std::vector<JointEdge> joint_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> sides);
 
 enum class JointLaw {
     intrinsic,  ///< MixedModeLaw<Insertion::intrinsic>

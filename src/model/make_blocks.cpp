@@ -133,19 +133,36 @@ std::unique_ptr<ElementBlock> make_block(const Mesh& mesh, BlockGeometry geometr
 
 }  // namespace
 
-std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const SolidOptions& solid,
-                                                       const std::vector<MaterialOptions>& materials) {
+std::vector<std::int32_t> material_of_elements(const Mesh& mesh, const std::vector<MaterialOptions>& materials) {
     std::vector<Problem> problems;
     const std::vector<std::int32_t> of_region = material_of_region(mesh, materials, problems);
     if (!problems.empty()) throw InputError(problems);
+    std::vector<std::int32_t> of_element;
+    of_element.reserve(mesh.n_elements());
+    for (const std::int32_t region : mesh.region) of_element.push_back(of_region[static_cast<std::size_t>(region)]);
+    return of_element;
+}
 
+std::vector<PlaneStiffness> element_stiffness(const Mesh& mesh, std::span<const std::unique_ptr<ElementBlock>> blocks) {
+    std::vector<PlaneStiffness> stiffness(mesh.n_elements());
+    for (const auto& block : blocks)
+        for (std::size_t local = 0; local < block->n_elements(); ++local)
+            stiffness[static_cast<std::size_t>(block->element(local))] =
+                plane_stiffness(block->tangent_constants(local), block->axis_angle(local), block->density());
+    return stiffness;
+}
+
+std::vector<std::unique_ptr<ElementBlock>> make_blocks(const Mesh& mesh, const SolidOptions& solid,
+                                                       const std::vector<MaterialOptions>& materials) {
+    const std::vector<std::int32_t> material_of = material_of_elements(mesh, materials);
+    std::vector<Problem> problems;
     std::vector<std::unique_ptr<ElementBlock>> blocks;
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const MaterialOptions& material = materials[m];
         // straight composites apart: they need a quarter of the geometry
         std::array<std::vector<std::int32_t>, 2> elements;
         for (std::size_t e = 0; e < mesh.n_elements(); ++e)
-            if (of_region[static_cast<std::size_t>(mesh.region[e])] == static_cast<std::int32_t>(m))
+            if (material_of[e] == static_cast<std::int32_t>(m))
                 elements[mesh.kind == ElementKind::compt && has_straight_sides(mesh, e)].push_back(
                     static_cast<std::int32_t>(e));
         for (const bool straight : {false, true}) {

@@ -47,6 +47,16 @@ struct AxesOptions {
     std::string data;  ///< name of per-element data of the mesh file: angle in rad
 };
 
+/// Of edges that lie along the material axis alpha, and across it; in between by the sine squared  [FORMULATION 7].
+using DirectionalOption = std::array<double, 2>;
+
+/// What holds edges together that may crack.
+struct StrengthOptions {
+    DirectionalOption tensile{0, 0}, cohesion{0, 0};                      ///< Pa, > 0
+    DirectionalOption friction{0, 0}, residual_friction{0, 0};            ///< tangents of angles, >= 0
+    DirectionalOption fracture_energy_i{0, 0}, fracture_energy_ii{0, 0};  ///< J/m2, > 0
+};
+
 struct MaterialOptions {
     std::vector<std::string> regions;  ///< empty: every region that no other material names
     LawKind law = LawKind::munjiza;
@@ -66,6 +76,21 @@ struct MaterialOptions {
     } stiffening;                           ///< k >= 0, p_ref > 0 Pa, n in [0, 1]
     std::array<Formula, 3> in_situ_stress;  ///< Cauchy xx, yy, xy, Pa, tension positive; may use x, y; hypo only
     double shear_viscosity = 0, bulk_viscosity = 0;  ///< Pa s, >= 0
+    std::optional<StrengthOptions> strength;         ///< needed where edges may crack
+};
+
+// ---- fracture -------------------------------------------------------------------------------------------------------
+
+struct FractureOptions {
+    enum class Method {
+        none,
+        intrinsic,  ///< joints on every edge from the start, mixed-mode law
+        y_code      ///< the same with Y-code's law
+    };
+    Method method = Method::none;
+    double penalty = 20;         ///< stiffness of joints: this times the P-wave modulus over the edge's length, > 0
+    double weibull_modulus = 0;  ///< scatter of strengths from edge to edge, > 0; 0: none
+    int seed = 0;                ///< of the scatter, >= 0
 };
 
 // ---- loads, boundaries, initial state -------------------------------------------------------------------------------
@@ -159,6 +184,7 @@ struct CaseOptions {
     std::vector<LoadOptions> loads;
     std::vector<BoundaryOptions> boundaries;
     std::vector<InitialOptions> initial;
+    FractureOptions fracture;
     IntegratorOptions integrator;
     RunOptions run;
     OutputOptions output;

@@ -31,7 +31,7 @@ struct Part {
 };
 
 /// The smallest node of the part that each node belongs to.
-std::vector<std::int32_t> part_of_nodes(const Mesh& mesh) {
+std::vector<std::int32_t> part_of_nodes(const Mesh& mesh, std::span<const std::array<std::int32_t, 2>> bonds) {
     std::vector<std::int32_t> parent(mesh.n_nodes());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](std::int32_t node) {
@@ -39,13 +39,15 @@ std::vector<std::int32_t> part_of_nodes(const Mesh& mesh) {
         while (up(node) != node) node = up(node) = up(up(node));
         return node;
     };
+    const auto join = [&](std::int32_t a, std::int32_t b) {
+        const auto [low, high] = std::minmax({root(a), root(b)});
+        parent[static_cast<std::size_t>(high)] = low;
+    };
     for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
         const std::int32_t* nodes = mesh.element(e);
-        for (int k = 1; k < mesh.nodes_per_element(); ++k) {
-            const auto [low, high] = std::minmax({root(nodes[0]), root(nodes[k])});
-            parent[static_cast<std::size_t>(high)] = low;
-        }
+        for (int k = 1; k < mesh.nodes_per_element(); ++k) join(nodes[0], nodes[k]);
     }
+    for (const auto& [a, b] : bonds) join(a, b);
     for (std::size_t node = 0; node < parent.size(); ++node) parent[node] = root(static_cast<std::int32_t>(node));
     return parent;
 }
@@ -66,8 +68,9 @@ std::vector<std::string> free_motions(const Part& part, const std::array<double,
 
 }  // namespace
 
-std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints) {
-    const std::vector<std::int32_t> part_of = part_of_nodes(mesh);
+std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints,
+                                 std::span<const std::array<std::int32_t, 2>> bonds) {
+    const std::vector<std::int32_t> part_of = part_of_nodes(mesh, bonds);
     std::vector<Part> parts(mesh.n_nodes());  // that of a part's smallest node counts
     const auto of_node = [&](std::size_t node) -> Part& { return parts[static_cast<std::size_t>(part_of[node])]; };
     for (std::size_t node = 0; node < mesh.n_nodes(); ++node) {

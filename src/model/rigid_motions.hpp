@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,9 @@ struct FreePart {
 ///
 /// A prescribed x holds the translation in x; prescribed x at different heights, or prescribed y at different widths,
 /// hold the rotation.
-std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints);
+/// @param bonds  pairs of nodes that hold together without being one: joints
+std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints,
+                                 std::span<const std::array<std::int32_t, 2>> bonds = {});
 
 /// One line for each, "the solid: translation in x, rotation about (0, 0)", but no more than a few.
 std::string describe(const std::vector<FreePart>& parts, const Mesh& mesh);

@@ -79,11 +79,7 @@ inline Solid make_solid(Mesh mesh, const SolidDescription& what,
     parts.damping.mass_proportional = what.mass_damping;
     const auto edges = absorbing_edges(solid.mesh, what.boundaries);
     if (!edges.empty()) {
-        std::vector<PlaneStiffness> stiffness(solid.mesh.n_elements());
-        for (const auto& block : parts.blocks)
-            for (std::size_t local = 0; local < block->n_elements(); ++local)
-                stiffness[static_cast<std::size_t>(block->element(local))] =
-                    plane_stiffness(block->tangent_constants(local), block->axis_angle(local), block->density());
+        const std::vector<PlaneStiffness> stiffness = element_stiffness(solid.mesh, parts.blocks);
         parts.damping.blocks = absorbing_blocks(
             solid.mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
             what.solid.thickness);

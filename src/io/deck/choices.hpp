@@ -156,6 +156,13 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
 }};
 
+inline constexpr std::array<Choice<FractureOptions::Method>, 3> fracture_methods{{
+    {"none", FractureOptions::Method::none, "elements stay together"},
+    {"intrinsic", FractureOptions::Method::intrinsic,
+     "joints on every edge from the start, elastic up to the strength, then one damage law in mixed mode"},
+    {"y_code", FractureOptions::Method::y_code, "the same with the joint of Y-code, which dissipates 16 % too much"},
+}};
+
 inline const std::array<Choice<std::string>, 6> linear_solvers{{
     {"automatic", "automatic", "CHOLMOD where the tangent is symmetric and positive definite, UMFPACK elsewhere"},
     {"cholmod", "cholmod", "Cholesky, for symmetric positive definite tangents alone"},

@@ -257,6 +257,7 @@ const Section<CaseOptions>& case_section() {
          tables("boundary", &C::boundaries, boundary_section,
                 {.meaning = "boundary conditions, one `[[boundary]]` each"}),
          tables("initial", &C::initial, initial_section, {.meaning = "initial velocities, one `[[initial]]` each"}),
+         table("fracture", &C::fracture, fracture_section, {.meaning = "cracks along edges of elements"}),
          table("integrator", &C::integrator, integrator_section, {.meaning = "time integration"}),
          table("run", &C::run, run_section, {.required = true, .meaning = "how long, how damped"}),
          table("output", &C::output, output_section, {.meaning = "what is written, and when"})},

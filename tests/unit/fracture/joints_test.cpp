@@ -33,7 +33,7 @@ test::Solid jointed(bool compt, JointLaw law, const CohesionProperties<double>& 
     std::iota(all.begin(), all.end(), 0);
     sides.open(all);
     std::vector<Joint> joints;
-    for (const auto& nodes : joint_nodes_along(mesh, sides, all)) joints.push_back({nodes, properties});
+    for (const JointEdge& edge : joint_edges(mesh, sides, all)) joints.push_back({edge.nodes, properties});
     test::Solid solid{};
     const Mesh copy = mesh;  // make_solid() takes the mesh before it asks for more parts
     return test::make_solid(std::move(mesh), {}, [&](SolidSystem::Parts& parts) {

@@ -73,16 +73,7 @@ TEST(QuasiStatic, PredictionFarOutOfBalance_DoesNotLoosenTheTolerance) {
 TEST(QuasiStatic, SolverThatKeepsItsPivots_SavedAndLoaded_GoesOnWithTheSameBits) {
     const test::Solid solid = test::distorted_solid(true, test::sheared(1e8));
     QuasiStatic integrator({{.step = 0.25}, "klu"}), other({{.step = 0.25}, "klu"});
-    State state = solid.system->initial_state();
-    integrator.start(*solid.system, state, StartReason::fresh);
-    integrator.advance(*solid.system, state, 1);
-    State other_state = state;
-    other.load(*solid.system, other_state, integrator.save());
-    while (state.t < 1) {
-        integrator.advance(*solid.system, state, 1);
-        other.advance(*solid.system, other_state, 1);
-        ASSERT_EQ(state, other_state);
-    }
+    test::expect_other_goes_on_with_the_same_bits(*solid.system, integrator, other);
 }
 
 TEST(QuasiStatic, PressedColumnStraightPastBuckling_WarnsOnce) {

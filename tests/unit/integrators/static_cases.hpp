@@ -1,6 +1,8 @@
 #pragma once
 // Small solids under loads that grow until t = 1, and how they get there: for tests of static integrators.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -112,6 +114,22 @@ inline double out_of_balance(const SemiDiscrete& system, const State& state) {
         if (!fixed[i]) free = std::max(free, std::abs(f[i]));
     }
     return free / largest;
+}
+
+/// After a quarter of a run another integrator takes up what the first one saves; both come to the end alike.
+inline void expect_other_goes_on_with_the_same_bits(const SemiDiscrete& system, Integrator& integrator,
+                                                    Integrator& other) {
+    State state = system.initial_state();
+    integrator.start(system, state, StartReason::fresh);
+    integrator.advance(system, state, 0.25);
+    State other_state = state;
+    other.load(system, other_state, integrator.save());
+    while (state.t < 1) {
+        integrator.advance(system, state, 1);
+        other.advance(system, other_state, 1);
+        ASSERT_EQ(state, other_state);
+    }
+    EXPECT_EQ(integrator.save(), other.save());
 }
 
 /// An integrator with these options, and its own defaults for what no other has.

@@ -1,0 +1,125 @@
+#include "fracture/cohesion.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "base/errors.hpp"
+#include "fracture/interface_strength.hpp"
+#include "model/impedance.hpp"
+#include "model/make_blocks.hpp"
+
+namespace gneiss {
+namespace {
+
+InterfaceStrength strength_of(const StrengthOptions& options) {
+    const auto directional = [](const DirectionalOption& value) { return DirectionalValue{value[0], value[1]}; };
+    return {directional(options.tensile),           directional(options.cohesion),
+            directional(options.friction),          directional(options.residual_friction),
+            directional(options.fracture_energy_i), directional(options.fracture_energy_ii)};
+}
+
+/// Property by property the smaller one.
+CohesionProperties<double> weaker(const CohesionProperties<double>& a, const CohesionProperties<double>& b) {
+    return {std::min(a.tensile_strength, b.tensile_strength),
+            std::min(a.cohesion, b.cohesion),
+            std::min(a.tan_phi_initial, b.tan_phi_initial),
+            std::min(a.tan_phi_residual, b.tan_phi_residual),
+            std::min(a.fracture_energy_i, b.fracture_energy_i),
+            std::min(a.fracture_energy_ii, b.fracture_energy_ii),
+            std::min(a.penalty, b.penalty)};
+}
+
+std::string place(std::size_t material) { return fmt::format("[[material]] {}", material + 1); }
+
+}  // namespace
+
+std::vector<JointEdge> open_all_sides(Mesh& mesh) {
+    InnerSides inner(mesh);
+    std::vector<std::int32_t> all(inner.sides().size());
+    std::iota(all.begin(), all.end(), 0);
+    inner.open(all);
+    return joint_edges(mesh, inner, all);
+}
+
+std::unique_ptr<Interaction> make_cohesion(const Mesh& mesh, std::span<const JointEdge> edges,
+                                           std::span<const std::unique_ptr<ElementBlock>> blocks,
+                                           const std::vector<MaterialOptions>& materials, const SolidOptions& solid,
+                                           const FractureOptions& fracture, std::vector<std::string>& warnings) {
+    std::vector<Problem> problems;
+    const std::vector<std::int32_t> material_of = material_of_elements(mesh, materials);
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        if (!materials[m].strength && std::ranges::find(material_of, static_cast<std::int32_t>(m)) != material_of.end())
+            problems.push_back({place(m), "`strength` is missing, which [fracture] needs"});
+    const std::optional<WeibullScatter> scatter =
+        fracture.weibull_modulus > 0
+            ? std::optional(WeibullScatter{fracture.weibull_modulus, static_cast<std::uint64_t>(fracture.seed)})
+            : std::nullopt;
+    if (!problems.empty()) throw InputError(problems);
+
+    const std::vector<PlaneStiffness> stiffness = element_stiffness(mesh, blocks);
+
+    const bool y_code = fracture.method == FractureOptions::Method::y_code;
+    std::set<std::string> refused;
+    std::vector<Joint> joints;
+    std::size_t n_coarse = 0;
+    double shortest = std::numeric_limits<double>::infinity(), its_edge = 0;
+    for (const JointEdge& edge : edges) {
+        const auto& start = mesh.nodes[static_cast<std::size_t>(edge.nodes[0])];
+        const auto& end = mesh.nodes[static_cast<std::size_t>(edge.nodes[1])];
+        const Vec2<double> along{end[0] - start[0], end[1] - start[1]};
+        const double length = std::hypot(along.x, along.y);
+        std::array<CohesionProperties<double>, 2> sides;
+        double modulus = std::numeric_limits<double>::infinity();
+        const std::array<std::int32_t, 2> elements{edge.left, edge.right};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto e = static_cast<std::size_t>(elements[k]);
+            const PlaneStiffness& of = stiffness[e];
+            const Vec2<double> n{along.y / length, -along.x / length};
+            const SymmetricMatrix gamma = christoffel_matrix(of, n);
+            const double across = dot(n, gamma * n);
+            modulus = std::min(modulus, across);
+            sides[k] = strength_of(*materials[static_cast<std::size_t>(material_of[e])].strength)
+                           .properties(along, {std::cos(of.axis_angle), std::sin(of.axis_angle)},
+                                       fracture.penalty * across / length);
+        }
+        CohesionProperties<double> properties = weaker(sides[0], sides[1]);
+        if (scatter) properties = scaled_strength(properties, scatter->factor(static_cast<std::uint64_t>(edge.side)));
+        try {
+            (y_code ? validate_y_code : validate_mixed_mode)(properties);
+        } catch (const InputError& error) {
+            for (const Problem& problem : error.problems())
+                if (refused.insert(problem.message.substr(0, problem.message.find(' '))).second)
+                    problems.push_back(
+                        {place(static_cast<std::size_t>(material_of[static_cast<std::size_t>(edge.left)])) +
+                             " strength",
+                         fmt::format("{} (an edge of {:.3g} m, penalty {:.3g} Pa/m)", problem.message, length,
+                                     properties.penalty)});
+        }
+        if (const double l_ch = cohesion_length(properties.fracture_energy_i, modulus, properties.tensile_strength);
+            l_ch < length) {
+            ++n_coarse;
+            if (l_ch / length < shortest) {
+                shortest = l_ch / length;
+                its_edge = length;
+            }
+        }
+        joints.push_back({edge.nodes, properties});
+    }
+    if (!problems.empty()) throw InputError(problems);
+    if (joints.empty()) throw InputError("[fracture]", "the mesh has a single element: no edge can crack");
+    if (n_coarse > 0)
+        warnings.push_back(
+            fmt::format("fracture: {} of {} edges are longer than the length over which a crack softens, G E/f_t^2; at "
+                        "the worst one "
+                        "of {:.3g} m it is {:.3g} m: cracks there depend on the mesh",
+                        n_coarse, joints.size(), its_edge, shortest * its_edge));
+    return make_joints(mesh, joints, y_code ? JointLaw::y_code : JointLaw::intrinsic, solid.thickness);
+}
+
+}  // namespace gneiss

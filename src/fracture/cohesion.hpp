@@ -1,0 +1,31 @@
+#pragma once
+// From what a user says about fracture to joints between the elements of a mesh.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fracture/joints.hpp"
+#include "mesh/inner_sides.hpp"
+#include "model/element_block.hpp"
+#include "model/options.hpp"
+
+namespace gneiss {
+
+/// Opens every inner side: elements have nodes of their own, and a joint lies wherever two of them touch.
+/// @return the sub-edges of all joints
+std::vector<JointEdge> open_all_sides(Mesh& mesh);
+
+/// Joints on these edges. Where two materials meet, or axes differ, each property is the smaller one of the two sides.
+/// The scatter of an edge depends on the number of its inner side alone, for both sub-edges of a composite's side.
+/// @param edges          of open_all_sides()
+/// @param blocks         of the opened mesh
+/// @param[out] warnings  edges longer than the length over which cracks soften
+/// @throws InputError with every problem: materials without strength, properties that the law cannot take
+std::unique_ptr<Interaction> make_cohesion(const Mesh& mesh, std::span<const JointEdge> edges,
+                                           std::span<const std::unique_ptr<ElementBlock>> blocks,
+                                           const std::vector<MaterialOptions>& materials, const SolidOptions& solid,
+                                           const FractureOptions& fracture, std::vector<std::string>& warnings);
+
+}  // namespace gneiss

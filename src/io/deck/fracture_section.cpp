@@ -1,0 +1,71 @@
+// [fracture], and the strengths of a material.
+
+#include "io/deck/keys.hpp"
+#include "io/deck/sections.hpp"
+
+namespace gneiss::deck {
+namespace {
+
+/// A number, or two of them: for edges along the material axis alpha, and across it.
+Key<StrengthOptions> directional(std::string_view name, DirectionalOption StrengthOptions::*member, const Spec& spec) {
+    return custom<StrengthOptions>(
+        name, "a number or an array of 2 numbers", "", spec,
+        [=, range = spec.range, unit = spec.unit](const Value& value, TableReader&, StrengthOptions& out) {
+            const NumberRule rule{range, unit};
+            DirectionalOption& both = out.*member;
+            if (value.node().is_array()) return value.read(std::span<double>(both), rule);
+            const bool good = value.read(both[0], rule);
+            both[1] = both[0];
+            return good;
+        });
+}
+
+/// The scatter's seed means nothing without scatter.
+void check_fracture(TableReader& table, FractureOptions& fracture) {
+    if (table.given("seed") && !table.failed("weibull_modulus") && fracture.weibull_modulus == 0)
+        table.problem("seed", "has no effect without `weibull_modulus`");
+}
+
+}  // namespace
+
+const Section<StrengthOptions>& strength_section() {
+    using S = StrengthOptions;
+    static const Section<S> section{
+        {directional("tensile", &S::tensile,
+                     {.unit = "Pa",
+                      .range = above(0),
+                      .required = true,
+                      .meaning = "tensile strength; two numbers: of edges along the axis alpha and across it"}),
+         directional("cohesion", &S::cohesion,
+                     {.unit = "Pa", .range = above(0), .required = true, .meaning = "strength in shear alone"}),
+         directional("friction", &S::friction,
+                     {.range = at_least(0), .required = true, .meaning = "tangent of the angle of internal friction"}),
+         directional("residual_friction", &S::residual_friction,
+                     {.range = at_least(0), .required = true, .meaning = "the same once the edge has failed"}),
+         directional("G_I", &S::fracture_energy_i,
+                     {.unit = "J/m²", .range = above(0), .required = true, .meaning = "fracture energy in opening"}),
+         directional("G_II", &S::fracture_energy_ii,
+                     {.unit = "J/m²", .range = above(0), .required = true, .meaning = "fracture energy in sliding"})}};
+    return section;
+}
+
+const Section<FractureOptions>& fracture_section() {
+    using F = FractureOptions;
+    const std::vector<Condition> jointed{{"method", {"intrinsic", "y_code"}}};
+    static const Section<F> section{
+        {choice("method", &F::method, fracture_methods, {.meaning = "how edges crack"}),
+         number("penalty", &F::penalty,
+                {.range = above(0),
+                 .only_for = jointed,
+                 .meaning = "stiffness of joints, times the P-wave modulus over the edge's length"}),
+         number("weibull_modulus", &F::weibull_modulus,
+                {.range = at_least(0),
+                 .only_for = jointed,
+                 .meaning = "scatter of strengths from edge to edge: 10 is 12 %; 0: none"}),
+         integer("seed", &F::seed,
+                 {.range = at_least(0), .only_for = jointed, .meaning = "another seed, another sample"})},
+        check_fracture};
+    return section;
+}
+
+}  // namespace gneiss::deck

@@ -1,0 +1,103 @@
+// A case that cracks, from its deck to its results.
+
+#include <gmock/gmock.h>
+
+#include "unit/app/program.hpp"
+
+namespace gneiss {
+namespace {
+
+using test::Ended;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string cracking_deck = R"toml(title = "a block that is pulled apart"
+mesh = { generator = "rectangle", width = 0.04, height = 0.02, cells = [8, 4], pattern = "crossed" }
+solid = { plane = "strain" }
+run = { t_end = 1e-4, checkpoint = 5e-5 }
+output = { history = 1e-6, probes = [{ name = "p", at = [0.02, 0.01] }] }
+[[material]]
+density = 2500.0
+constants = { E = 30e9, nu = 0.2 }
+strength = { tensile = 4e6, cohesion = 1e7, friction = 0.6, residual_friction = 0.4, G_I = 20, G_II = 60 }
+[fracture]
+method = "intrinsic"
+weibull_modulus = 10
+[[boundary]]
+on = "left"
+type = "fixed"
+[[boundary]]
+on = "right"
+type = "velocity"
+value = [0.5, "free"]
+)toml";
+
+class ProgramFracture : public test::ProgramTest {
+protected:
+    ProgramFracture() { put("case.toml", cracking_deck); }
+
+    nlohmann::json energies(const std::vector<std::string>& more, const std::string& out) const {
+        std::vector<std::string> arguments{"run", "case.toml", "--quiet", "--out", out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ended ended = gneiss(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return summary(out)["energies_J"];
+    }
+};
+
+TEST_F(ProgramFracture, PulledApart_PaysForItsCracks) {
+    for (const char* element : {"solid.element=cst", "solid.element=compt"})
+        for (const char* method : {"fracture.method=intrinsic", "fracture.method=y_code"}) {
+            const nlohmann::json found = energies({"--set", element, method}, "out");
+            EXPECT_GT(found["dissipated_fracture"], 0.01) << element << method;
+            // waves that crack edges at steps of 0.8 of the critical one: kinks of the law within steps
+            EXPECT_LT(summary("out")["balance_error"], 5e-3) << element << method;
+        }
+}
+
+TEST_F(ProgramFracture, ThreadsAndRestarts_DoNotMoveABit) {
+    energies({"--threads", "1"}, "one");
+    energies({"--threads", "2"}, "two");
+    EXPECT_EQ(contents("one/history.csv"), contents("two/history.csv"));
+    energies({"--threads", "1", "--set", "run.t_end=5e-5"}, "parts");
+    energies({"--threads", "1", "--restart", "parts/checkpoint.h5"}, "parts");
+    EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
+}
+
+TEST_F(ProgramFracture, Scatter_AnotherSeedIsAnotherSample) {
+    const auto fracture = [&](const std::string& set) {
+        return energies({"--set", set}, "out")["dissipated_fracture"].get<double>();
+    };
+    EXPECT_NE(fracture("fracture.seed=1"), fracture("fracture.seed=2"));
+    EXPECT_EQ(fracture("fracture.seed=1"), fracture("fracture.seed=1"));
+}
+
+TEST_F(ProgramFracture, BadInput_IsNamed) {
+    const auto refusal = [&](const std::vector<std::string>& set) {
+        std::vector<std::string> arguments{"run", "case.toml", "--quiet", "--set"};
+        arguments.insert(arguments.end(), set.begin(), set.end());
+        const Ended ended = gneiss(arguments);
+        EXPECT_EQ(ended.code, 2);
+        return ended.err;
+    };
+    EXPECT_THAT(refusal({"material.0.strength.G_I=1e-3"}),
+                AllOf(HasSubstr("[[material]] 1 strength: fracture_energy_i is 0.001 J/m2"), HasSubstr("1 problem")));
+    EXPECT_THAT(refusal({"material.0.strength.tensile=0"}), HasSubstr("given 0, must be"));
+    EXPECT_THAT(refusal({"material.0.strength={ tensile = 1e6 }"}),
+                HasSubstr("`material[0].strength.cohesion`: missing"));
+    EXPECT_THAT(refusal({"fracture={ seed = 3, method = \"intrinsic\" }"}),
+                HasSubstr("has no effect without `weibull_modulus`"));
+    const std::size_t strength = cracking_deck.find("strength =");
+    put("case.toml", cracking_deck.substr(0, strength) + "# " + cracking_deck.substr(strength));
+    EXPECT_THAT(refusal({"run.t_end=1e-6"}), HasSubstr("`strength` is missing, which [fracture] needs"));
+}
+
+TEST_F(ProgramFracture, CoarseEdges_AreWarnedOf) {
+    const Ended ended = gneiss({"check", "case.toml", "--set", "material.0.strength.G_I=0.5"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    // l_ch = G E'/f_t^2 = 0.5 J/m2 * 33 GPa / (4 MPa)^2 = 1.04 mm against sub-edges of up to 2.5 mm
+    EXPECT_THAT(ended.out, HasSubstr("longer than the length over which a crack softens"));
+}
+
+}  // namespace
+}  // namespace gneiss
