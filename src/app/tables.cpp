@@ -99,7 +99,7 @@ ReactionTable::ReactionTable(const Mesh& mesh, const std::vector<BoundaryOptions
     std::map<std::string, std::size_t> column_of_name;
     for (const BoundaryOptions& boundary : boundaries) {
         if (boundary.kind == BoundaryOptions::Kind::absorbing) continue;
-        const std::vector<std::int32_t> nodes = nodes_named(mesh, boundary.on);
+        const std::vector<std::int32_t>& nodes = nodes_named(mesh, boundary.on);
         for (std::size_t component = 0; component < 2; ++component) {
             if (!boundary.value[component]) continue;
             const std::string name = boundary.on + (component == 0 ? ".R_x" : ".R_y");

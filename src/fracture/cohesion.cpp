@@ -25,14 +25,9 @@ InterfaceStrength strength_of(const StrengthOptions& options) {
 }
 
 /// Property by property the smaller one.
-CohesionProperties<double> weaker(const CohesionProperties<double>& a, const CohesionProperties<double>& b) {
-    return {std::min(a.tensile_strength, b.tensile_strength),
-            std::min(a.cohesion, b.cohesion),
-            std::min(a.tan_phi_initial, b.tan_phi_initial),
-            std::min(a.tan_phi_residual, b.tan_phi_residual),
-            std::min(a.fracture_energy_i, b.fracture_energy_i),
-            std::min(a.fracture_energy_ii, b.fracture_energy_ii),
-            std::min(a.penalty, b.penalty)};
+CohesionProperties<double> weaker(CohesionProperties<double> a, const CohesionProperties<double>& b) {
+    for (const auto member : CohesionProperties<double>::members) a.*member = std::min(a.*member, b.*member);
+    return a;
 }
 
 std::string place(std::size_t material) { return fmt::format("[[material]] {}", material + 1); }

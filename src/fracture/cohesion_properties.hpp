@@ -2,6 +2,8 @@
 // Strengths, energies and penalty of a point of an interface, their ranges, and what a point of any cohesion law
 // returns  [FORMULATION 7].
 
+#include <array>
+
 namespace gneiss {
 
 /// Where a crack may open. One set per point, because strengths may depend on direction and scatter.
@@ -15,6 +17,15 @@ struct CohesionProperties {
     V fracture_energy_i;   ///< G_I, J/m2, > 0
     V fracture_energy_ii;  ///< G_II, J/m2, > 0
     V penalty;             ///< k = p_f/h_e, Pa/m, > 0: stiffness of the elastic branch and in compression
+
+    /// For loops over all of them.
+    static constexpr std::array<V CohesionProperties::*, 7> members{&CohesionProperties::tensile_strength,
+                                                                    &CohesionProperties::cohesion,
+                                                                    &CohesionProperties::tan_phi_initial,
+                                                                    &CohesionProperties::tan_phi_residual,
+                                                                    &CohesionProperties::fracture_energy_i,
+                                                                    &CohesionProperties::fracture_energy_ii,
+                                                                    &CohesionProperties::penalty};
 };
 
 /// Traction of the side with the outward normal against opening: tension positive; shear against slip.

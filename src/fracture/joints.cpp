@@ -16,23 +16,7 @@ namespace {
 
 using Packs = std::vector<double, xsimd::aligned_allocator<double>>;
 
-constexpr std::size_t n_properties = 7, n_dof = 2 * joint_nodes;
-constexpr std::array<Pack CohesionProperties<Pack>::*, n_properties> property_packs{
-    &CohesionProperties<Pack>::tensile_strength,
-    &CohesionProperties<Pack>::cohesion,
-    &CohesionProperties<Pack>::tan_phi_initial,
-    &CohesionProperties<Pack>::tan_phi_residual,
-    &CohesionProperties<Pack>::fracture_energy_i,
-    &CohesionProperties<Pack>::fracture_energy_ii,
-    &CohesionProperties<Pack>::penalty};
-constexpr std::array<double CohesionProperties<double>::*, n_properties> properties{
-    &CohesionProperties<double>::tensile_strength,
-    &CohesionProperties<double>::cohesion,
-    &CohesionProperties<double>::tan_phi_initial,
-    &CohesionProperties<double>::tan_phi_residual,
-    &CohesionProperties<double>::fracture_energy_i,
-    &CohesionProperties<double>::fracture_energy_ii,
-    &CohesionProperties<double>::penalty};
+constexpr std::size_t n_properties = CohesionProperties<double>::members.size(), n_dof = 2 * joint_nodes;
 
 /// Joints side by side in packs. Lanes behind the last joint repeat it with no weight.
 template <class Law>
@@ -67,7 +51,7 @@ private:
     CohesionProperties<Pack> of(std::size_t pack) const {
         CohesionProperties<Pack> p;
         for (std::size_t i = 0; i < n_properties; ++i)
-            p.*property_packs[i] = load(properties_, n_properties * pack + i);
+            p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
         return p;
     }
     static History history_of(std::span<const double> history, std::size_t pack, std::size_t point) {
@@ -140,7 +124,8 @@ Joints<Law>::Joints(const Mesh& mesh, const std::vector<Joint>& joints, double t
         edges_[(2 * pack + 1) * pack_width + lane] = dy;
         weights_[slot] = slot < n_joints_ ? 0.5 * thickness * std::hypot(dx, dy) : 0.0;
         for (std::size_t i = 0; i < n_properties; ++i)
-            properties_[(n_properties * pack + i) * pack_width + lane] = joint.properties.*properties[i];
+            properties_[(n_properties * pack + i) * pack_width + lane] =
+                joint.properties.*CohesionProperties<double>::members[i];
     }
     plan_sums();
 }

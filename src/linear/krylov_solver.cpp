@@ -49,9 +49,9 @@ private:
     Eigen::VectorXd inverse_;
 };
 
-/// L L^T with as many entries as the matrix has, by Eigen: Lin and More, SIAM J. Sci. Comput. 21 (1999) 24-45. Where a
-/// pivot is not positive the diagonal is raised: the preconditioner of an indefinite matrix is definite.
-class IncompleteCholesky final : public Preconditioner {
+/// An incomplete factorisation by Eigen.
+template <class Factor>
+class Incomplete : public Preconditioner {
 public:
     void compute(const Eigen::Map<const Rows>& a) override {
         factor_.compute(a);
@@ -61,37 +61,36 @@ public:
     void apply(std::span<const double> r, std::span<double> z) const override {
         as_vector(z) = factor_.solve(as_vector(r));
     }
-    std::size_t bytes(const SparsePattern& pattern) const override {
-        return (pattern.n_nonzero() + pattern.n()) / 2 * (sizeof(double) + sizeof(std::int64_t));
-    }
 
-private:
-    Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<std::int64_t>> factor_;
+protected:
+    static constexpr std::size_t bytes_per_entry = sizeof(double) + sizeof(std::int64_t);
+    Factor factor_;
 };
 
-/// L U by Eigen with dropped entries: Saad, Numer. Linear Algebra Appl. 1 (1994) 387-402.
-class IncompleteLu final : public Preconditioner {
+/// L L^T with as many entries as the matrix has: Lin and More, SIAM J. Sci. Comput. 21 (1999) 24-45. Where a pivot is
+/// not positive the diagonal is raised: the preconditioner of an indefinite matrix is definite.
+class IncompleteCholesky final
+    : public Incomplete<Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<std::int64_t>>> {
+public:
+    std::size_t bytes(const SparsePattern& pattern) const override {
+        return (pattern.n_nonzero() + pattern.n()) / 2 * bytes_per_entry;
+    }
+};
+
+/// L U with dropped entries: Saad, Numer. Linear Algebra Appl. 1 (1994) 387-402.
+class IncompleteLu final : public Incomplete<Eigen::IncompleteLUT<double, std::int64_t>> {
 public:
     IncompleteLu() {
         factor_.setDroptol(1e-4);
         factor_.setFillfactor(fill);
     }
-    void compute(const Eigen::Map<const Rows>& a) override {
-        factor_.compute(a);
-        if (factor_.info() != Eigen::Success)
-            throw SingularMatrix("there is no incomplete factorisation of the matrix");
-    }
-    void apply(std::span<const double> r, std::span<double> z) const override {
-        as_vector(z) = factor_.solve(as_vector(r));
-    }
     /// At most.
     std::size_t bytes(const SparsePattern& pattern) const override {
-        return fill * pattern.n_nonzero() * (sizeof(double) + sizeof(std::int64_t));
+        return fill * pattern.n_nonzero() * bytes_per_entry;
     }
 
 private:
     static constexpr int fill = 2;  ///< entries of the factors per entry of the matrix, at most
-    Eigen::IncompleteLUT<double, std::int64_t> factor_;
 };
 
 class KrylovSolver final : public LinearSolver {

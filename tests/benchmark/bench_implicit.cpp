@@ -19,8 +19,8 @@
 
 #include "app/large_arrays.hpp"
 #include "benchmark/textbook_stiffness.hpp"
+#include "integrators/free_part.hpp"
 #include "integrators/quasi_static.hpp"
-#include "linear/free_matrix.hpp"
 #include "support/small_solids.hpp"
 
 namespace gneiss::benchmark {
@@ -139,13 +139,6 @@ void assembly(::benchmark::State& state, Kind kind) {
 
 // ---- linear systems -------------------------------------------------------------------------------------------------
 
-FreeMatrix free_part(const SemiDiscrete& system) {
-    std::vector<std::size_t> fixed;
-    for (const Constraint& constraint : system.constraints()) fixed.push_back(constraint.dof);
-    const MatrixPattern full = system.tangent()->pattern();
-    return FreeMatrix({full.row_starts, full.columns}, fixed);
-}
-
 void linear(::benchmark::State& state, const char* solver_name, Kind kind) {
     omp_set_num_threads(1);
     const test::Solid solid = pulled_square(kind, cells_of_unknowns(state.range(0)));
@@ -154,7 +147,7 @@ void linear(::benchmark::State& state, const char* solver_name, Kind kind) {
     PeakMemory memory;
     auto start = Clock::now();
     const Tangent& tangent = *system.tangent();
-    const FreeMatrix free = free_part(system);
+    const FreeMatrix free = free_part(system, *system.tangent());
     const double pattern = seconds_since(start);
     start = Clock::now();
     const auto solver = make_linear_solver(solver_name, tangent.symmetric());
@@ -238,7 +231,7 @@ void first_solve(::benchmark::State& state, const char* solver_name, Kind kind, 
         PeakMemory memory;
         const auto start = Clock::now();
         const Tangent& tangent = *system.tangent();
-        const FreeMatrix free = free_part(system);
+        const FreeMatrix free = free_part(system, *system.tangent());
         const auto solver = make_linear_solver(solver_name, tangent.symmetric());
         solver->analyse(free.pattern());
         std::vector<double> values(tangent.n_nonzero()), f(rest.u.size()), x(free.n());
@@ -281,7 +274,7 @@ void newton_form(::benchmark::State& state, const char* solver_name, bool both, 
     const SemiDiscrete& system = *solid.system;
     const State rest = system.initial_state();
     const Tangent& tangent = *system.tangent();
-    const FreeMatrix free = free_part(system);
+    const FreeMatrix free = free_part(system, *system.tangent());
     std::vector<double> stiffness(tangent.n_nonzero());
     tangent.assemble(rest, Trial::of(rest), {.stiffness = 1}, stiffness);
     free.take_values(stiffness, stiffness);

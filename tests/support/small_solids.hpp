@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear/linear_solver.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
@@ -96,19 +97,23 @@ inline Solid distorted_solid(bool compt, const SolidDescription& what = {}) {
     return make_solid(std::move(mesh), what);
 }
 
-/// An assembled tangent.
-inline Eigen::MatrixXd dense(const Tangent& tangent, const State& accepted, const Trial& trial,
-                             const Tangent::Factors& factors) {
-    const MatrixPattern pattern = tangent.pattern();
-    const auto n = static_cast<Eigen::Index>(pattern.row_starts.size() - 1);
-    std::vector<double> values(tangent.n_nonzero(), 1e300);
-    tangent.assemble(accepted, trial, factors, values);
+inline Eigen::MatrixXd dense(const SparsePattern& pattern, std::span<const double> values) {
+    const auto n = static_cast<Eigen::Index>(pattern.n());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index row = 0; row < n; ++row)
         for (auto k = pattern.row_starts[static_cast<std::size_t>(row)];
              k < pattern.row_starts[static_cast<std::size_t>(row) + 1]; ++k)
             matrix(row, pattern.columns[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
     return matrix;
+}
+
+/// An assembled tangent.
+inline Eigen::MatrixXd dense(const Tangent& tangent, const State& accepted, const Trial& trial,
+                             const Tangent::Factors& factors) {
+    const MatrixPattern pattern = tangent.pattern();
+    std::vector<double> values(tangent.n_nonzero(), 1e300);
+    tangent.assemble(accepted, trial, factors, values);
+    return dense({pattern.row_starts, pattern.columns}, values);
 }
 
 /// K = -df/du at an accepted state by central differences of 1e-6 of an edge: relative error about 1e-9.

@@ -3,23 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "support/counted_allocations.hpp"
 #include "unit/contact/contact_testing.hpp"
-
-namespace {
-std::atomic<std::size_t> n_allocations{0};
-}
-
-void* operator new(std::size_t size) {
-    ++n_allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace gneiss {
 namespace {

@@ -34,15 +34,7 @@ struct Sparse {
         std::uniform_real_distribution<double> factor(0.9, 1.1);
         for (double& value : values) value *= factor(random);
     }
-    Eigen::MatrixXd dense() const {
-        const auto n = static_cast<Eigen::Index>(pattern.n());
-        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-        for (Eigen::Index row = 0; row < n; ++row)
-            for (auto k = pattern.row_starts[static_cast<std::size_t>(row)];
-                 k < pattern.row_starts[static_cast<std::size_t>(row) + 1]; ++k)
-                matrix(row, pattern.columns[static_cast<std::size_t>(k)]) = values[static_cast<std::size_t>(k)];
-        return matrix;
-    }
+    Eigen::MatrixXd dense() const { return test::dense(pattern, values); }
 };
 
 inline Eigen::VectorXd solve(LinearSolver& solver, const Eigen::VectorXd& b) {
