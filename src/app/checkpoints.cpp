@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "io/output/checkpoint.hpp"
 #include "io/output/fingerprint.hpp"
+#include "system/march.hpp"
 
 namespace gneiss {
 namespace {
@@ -71,6 +72,7 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
     const auto targets = state.path.members();
     const Vector& values = checkpoint.get<Vector>("state.path", targets.size());
     for (std::size_t k = 0; k < targets.size(); ++k) *targets[k] = values[k];
+    apply_due_events(*built.system, state);  // all have happened, but what they found is not saved
 
     IntegratorMemory memory;
     constexpr std::string_view prefix = "integrator.";

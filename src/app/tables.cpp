@@ -11,9 +11,10 @@ namespace gneiss {
 
 std::vector<CsvColumn> history_columns() {
     std::vector<CsvColumn> columns{{"t", "s"}, {"step"}, {"dt", "s"}};
-    for (const char* energy : {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints",
-                               "external_work", "support_work", "dissipated_damping", "dissipated_viscous",
-                               "dissipated_absorbing", "dissipated_friction", "dissipated_fracture", "left_over"})
+    for (const char* energy :
+         {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "external_work",
+          "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing", "dissipated_friction",
+          "dissipated_fracture", "dissipated_contact", "splitting", "left_over"})
         columns.push_back({energy, "J"});
     columns.push_back({"balance_error"});
     return columns;
@@ -37,6 +38,8 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
             path.absorbing,
             path.friction,
             path.fracture,
+            path.contact,
+            path.splitting,
             ledger.left_over(),
             ledger.balance_error()};
 }

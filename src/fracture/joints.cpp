@@ -33,6 +33,7 @@ public:
     void initial_history(std::span<double> history) const override { std::ranges::fill(history, 0.0); }
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;
+    void follow(const Parting&, const State&, std::vector<double>&, PathEnergies&) override {}
     std::vector<std::array<std::int32_t, 2>> couplings() const override;
     bool symmetric() const override { return false; }  // friction, and damage in mixed mode
     void stiffness(const Trial& trial, std::span<const double> history,

@@ -6,15 +6,16 @@
 namespace gneiss {
 
 double EnergyLedger::left_over() const {
-    const double dissipated = path.damping + path.viscous + path.absorbing + path.friction + path.fracture;
-    return kinetic + stored.sum() + dissipated - initial - path.external_work - path.support_work;
+    const double dissipated =
+        path.damping + path.viscous + path.absorbing + path.friction + path.fracture + path.contact;
+    return kinetic + stored.sum() + dissipated - initial - path.external_work - path.support_work - path.splitting;
 }
 
 double EnergyLedger::balance_error() const {
     double largest = 0;
-    for (const double entry :
-         {kinetic, stored.material, stored.stress_power, stored.contact, stored.joints, path.external_work,
-          path.support_work, path.damping, path.viscous, path.absorbing, path.friction, path.fracture, initial})
+    for (const double entry : {kinetic, stored.material, stored.stress_power, stored.contact, stored.joints,
+                               path.external_work, path.support_work, path.damping, path.viscous, path.absorbing,
+                               path.friction, path.fracture, path.contact, path.splitting, initial})
         largest = std::max(largest, std::abs(entry));
     return largest > 0 ? std::abs(left_over()) / largest : 0;
 }

@@ -1,5 +1,7 @@
 #include "model/interaction.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace gneiss {
@@ -11,6 +13,32 @@ Interactions::Interactions(std::vector<std::unique_ptr<Interaction>> all, std::s
 
 void Interactions::initial_history(std::span<double> history) const {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->initial_history(part(i, history));
+}
+
+bool Interactions::watch() const {
+    return std::ranges::any_of(all_, [](const auto& one) { return one->watches(); });
+}
+
+bool Interactions::look(const State& accepted) {
+    bool changed = false;
+    for (const auto& one : all_) changed |= one->watches() && one->look(accepted);
+    return changed;
+}
+
+void Interactions::follow(const Parting& parting, State& accepted) {
+    std::vector<double> whole(accepted.history.begin(),
+                              accepted.history.begin() + static_cast<std::ptrdiff_t>(starts_.front()));
+    std::vector<std::size_t> starts{starts_.front()};
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        const auto old = part(i, std::as_const(accepted));
+        std::vector<double> own(old.begin(), old.end());
+        all_[i]->follow(parting, accepted, own, accepted.path);
+        assert(own.size() == all_[i]->n_history());
+        whole.insert(whole.end(), own.begin(), own.end());
+        starts.push_back(whole.size());
+    }
+    starts_ = std::move(starts);
+    accepted.history = std::move(whole);
 }
 
 void Interactions::add_force(const State& accepted, const Trial& trial, std::span<double> f,

@@ -8,10 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "mesh/inner_sides.hpp"
 #include "model/force_term.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
+
+/// How a mesh has come apart between two steps.
+struct Parting {
+    const Mesh& mesh;                  ///< as it is now
+    std::span<const NodeCopy> copies;  ///< nodes that have come into being, in the order of their numbers
+    std::span<const std::int32_t>
+        opened;  ///< inner sides that have opened: their nodes may part, a cohesion holds them
+    std::span<const std::int32_t> failed;  ///< inner sides that nothing holds any more: contact takes over
+};
 
 /// All of it is a function of a trial state and of the accepted history, its own part of State::history.
 class Interaction {
@@ -28,6 +38,22 @@ public:
     /// @param[out] updated  what accepting the trial would leave, same shape; empty: not wanted
     virtual void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                            std::span<double> updated) const = 0;
+
+    /// Follows a mesh that has come apart: nodes, couplings, and, in an accepted state, its history.
+    /// @param history  its own part, at its old size; left at the new one
+    /// @param energies  takes what stored energy jumps by, in `splitting`
+    virtual void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
+                        PathEnergies& energies) = 0;
+
+    /// Whether look() is to be called.
+    virtual bool watches() const { return false; }
+    /// Called before the first step and after every accepted one: what it then finds (a search of contacts) holds until
+    /// the next call.
+    /// @return whether couplings() have changed
+    virtual bool look(const State& accepted) {
+        (void)accepted;
+        return false;
+    }
 
     /// Pairs of nodes (a, b) where the force on a may depend on the displacement of b, in any order; a pair may occur
     /// more than once.
@@ -63,6 +89,11 @@ public:
     bool empty() const { return all_.empty(); }
     std::size_t size() const { return all_.size(); }
     const Interaction& operator[](std::size_t i) const { return *all_[i]; }
+    bool watch() const;
+    /// Interaction::look() of all of them.
+    bool look(const State& accepted);
+    /// Interaction::follow() of all of them; the state's history becomes theirs.
+    void follow(const Parting& parting, State& accepted);
     std::size_t n_history() const { return starts_.back() - starts_.front(); }
     /// Its part of a whole history; empty for an empty one.
     template <class T>

@@ -10,6 +10,24 @@
 
 namespace gneiss {
 
+/// Interactions look at the state; a tangent made before their couplings changed is of no use.
+class SolidSystem::Look final : public Event {
+public:
+    explicit Look(SolidSystem& solid) : solid_(solid) {}
+    std::string name() const override { return "interactions"; }
+    std::optional<double> next_time(const State&) const override { return std::nullopt; }
+    EventOutcome apply(State&) override { return EventOutcome::none; }
+    bool watches() const override { return true; }
+    EventOutcome look(State& accepted) override {
+        if (!solid_.interactions_.look(accepted) || !solid_.tangent_) return EventOutcome::none;
+        solid_.tangent_.reset();
+        return EventOutcome::resize;
+    }
+
+private:
+    SolidSystem& solid_;
+};
+
 SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
     : elements_(std::move(parts.blocks), mesh),
       place_(mesh.n_elements()),
@@ -32,6 +50,7 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
         switches.insert(switches.end(), own.begin(), own.end());
     }
     events_.push_back(std::make_unique<LoadSwitch>(std::move(switches)));
+    if (interactions_.watch()) events_.push_back(std::make_unique<Look>(*this));
 }
 
 Layout SolidSystem::layout() const {

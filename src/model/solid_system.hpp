@@ -52,12 +52,16 @@ public:
 
     const ElementForces& elements() const { return elements_; }
 
+    /// An event that goes before the interactions' own looks at the state.
+    void add_event(std::unique_ptr<Event> event) { events_.insert(events_.begin() + 1, std::move(event)); }
+
     /// Values at every sub-triangle of every element, shape (n_elements, sub-triangles), in the mesh's order.
     std::vector<PointFields> point_fields(const State& state) const;
     /// The same for one element.
     std::vector<PointFields> point_fields(const State& state, std::int32_t element) const;
 
 private:
+    class Look;
     struct Place {
         std::int32_t block, local;  ///< of an element of the mesh
     };

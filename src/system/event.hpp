@@ -24,6 +24,14 @@ public:
     /// The next instant known beforehand, later than state.last_event; steps end there exactly.
     virtual std::optional<double> next_time(const State& state) const = 0;
 
+    /// Whether it looks at every accepted state, not at its own instants alone. Then no step passes unseen.
+    virtual bool watches() const { return false; }
+    /// After every accepted step of an event that watches, and before the first one.
+    virtual EventOutcome look(State& accepted) {
+        (void)accepted;
+        return EventOutcome::none;
+    }
+
     /// Functions whose zero crossing is the event, for root finding.
     virtual std::size_t n_indicators() const { return 0; }
     virtual void indicators(const State&, std::span<double>) const {}

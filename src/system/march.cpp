@@ -42,6 +42,7 @@ EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
     for (const auto& event : system.events()) {
         for (auto next = event->next_time(state); next && *next <= state.t; next = event->next_time(state))
             strongest = std::max(strongest, event->apply(state));
+        if (event->watches()) strongest = std::max(strongest, event->look(state));
     }
     return strongest;
 }
@@ -53,9 +54,9 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
         integrator.start(system, state, StartReason::fresh);
     }
     if (after_start) after_start();
-    // an event that watches the state sees every step
-    const bool unseen =
-        next_look && std::ranges::all_of(system.events(), [](const auto& event) { return event->n_indicators() == 0; });
+    const bool unseen = next_look && std::ranges::none_of(system.events(), [](const auto& event) {
+                            return event->watches() || event->n_indicators() > 0;
+                        });
     try {
         while (state.t < t_end) {
             const double planned = next_stop ? next_stop(state.t) : t_end;

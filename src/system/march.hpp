@@ -15,7 +15,7 @@ inline bool reached(double t, double time) {
     return time - t <= round_off * std::abs(t);
 }
 
-/// Lets every event happen that is due at state.t.
+/// Lets every event happen that is due at state.t, and those look at the state that watch it, in their order.
 /// @return the strongest outcome
 EventOutcome apply_due_events(const SemiDiscrete& system, State& state);
 

@@ -36,6 +36,7 @@ public:
             updated[2 * i + 1] = history[2 * i + 1] + limit_ * std::abs(slip.total - history[2 * i]);
         }
     }
+    void follow(const Parting&, const State&, std::vector<double>&, PathEnergies&) override {}  // of a mesh that stays
     std::vector<std::array<std::int32_t, 2>> couplings() const override {
         std::vector<std::array<std::int32_t, 2>> all;
         for (const auto& [a, b] : pairs_) all.insert(all.end(), {{a, a}, {a, b}, {b, a}, {b, b}});

@@ -28,8 +28,12 @@ TEST(EnergyLedger, EveryEntry_LeftOver_CountsItWithItsSign) {
     ledger.path.friction = 2048;
     ledger.path.fracture = 4096;
     EXPECT_EQ(ledger.left_over(), 1 + 240 + 7936);
+    ledger.path.contact = 8192;
+    EXPECT_EQ(ledger.left_over(), 1 + 240 + 16128);
+    ledger.path.splitting = 16384;
+    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256);
     ledger.path.viscous_power = 1e9;  // a rate, no energy
-    EXPECT_EQ(ledger.left_over(), 1 + 240 + 7936);
+    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256);
 }
 
 TEST(EnergyLedger, BalanceError_IsRelativeToTheLargestEntry) {

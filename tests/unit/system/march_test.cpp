@@ -133,13 +133,22 @@ TEST_F(MarchOverTime, NextLook_BesideAnEventThatWatches_EveryStepIsSeen) {
     public:
         std::string name() const override { return "watcher"; }
         std::optional<double> next_time(const State&) const override { return {}; }
-        std::size_t n_indicators() const override { return 1; }
+        explicit Watcher(Diary& diary) : diary_(diary) {}
         EventOutcome apply(State&) override { return EventOutcome::none; }
+        bool watches() const override { return true; }
+        EventOutcome look(State& state) override {
+            diary_.push_back("look at " + number(state.t));
+            return state.t == 2 ? EventOutcome::resize : EventOutcome::none;
+        }
+
+    private:
+        Diary& diary_;
     };
-    system.list.push_back(std::make_unique<Watcher>());
+    system.list.push_back(std::make_unique<Watcher>(diary));
     march.next_look = [](double) { return infinity; };
     run();
-    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "step to 2.", "step to 2.5"));
+    EXPECT_THAT(diary, ElementsAre("look at 0.", "start fresh at 0.", "step to 1.", "look at 1.", "step to 2.",
+                                   "look at 2.", "start resize at 2.", "step to 2.5", "look at 2.5"));
 }
 
 TEST_F(MarchOverTime, NothingSpecial_StepsToTheEnd) {
