@@ -71,13 +71,9 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
 }
 
 void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& state) {
-    FrequencyBound bound = system.frequency_bound(state);
-    if (options_.lanczos) bound.omega = std::min(bound.omega, lanczos_frequency_bound(system, state));
     const double before = critical_;
-    critical_ = critical_time_step(bound);
-    if (!(critical_ > 0 && std::isfinite(critical_)))
-        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}",
-                                           state.t, bound.omega, bound.damping_rate));
+    bound_ = system.frequency_bound(state);
+    take_bound(system, state);
     const double change = std::abs(critical_ - before) / critical_;
     if (options_.bound_interval > 0)
         bound_interval_ = options_.bound_interval;
@@ -90,10 +86,25 @@ void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& 
     steps_since_bound_ = 0;
 }
 
+void CentralDifference::take_bound(const SemiDiscrete& system, const State& state) {
+    FrequencyBound bound = bound_;
+    if (options_.lanczos) bound.omega = std::min(bound.omega, lanczos_frequency_bound(system, state));
+    critical_ = critical_time_step(bound);
+    if (!(critical_ > 0 && std::isfinite(critical_)))
+        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}",
+                                           state.t, bound.omega, bound.damping_rate));
+}
+
 void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
-    if (anew) {
-        allocate(system);
+    const bool bound_holds = why == StartReason::resize && critical_ > 0;  // what is new are bonds
+    if (anew) allocate(system);
+    if (bound_holds) {
+        const double of_bonds = system.bond_omega_squared(state);
+        bound_.omega = std::sqrt(std::max(0.0, bound_.omega * bound_.omega - bound_.of_bonds + of_bonds));
+        bound_.of_bonds = of_bonds;
+        take_bound(system, state);
+    } else if (anew) {
         bound_interval_ = 0;
         evaluate_bound(system, state);
         if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
@@ -105,7 +116,8 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     const double measure_before = anew ? 0 : acceleration_measure(system);
 
     hold_constraints(system, state, why);
-    if (anew && !system.constraints().empty()) evaluate_bound(system, state);  // they may have strained the solid
+    // they may have strained the solid
+    if (anew && !bound_holds && !system.constraints().empty()) evaluate_bound(system, state);
     if (why == StartReason::fresh && remembers()) {
         // prescribed displacements may have strained the solid
         system.force_and_update(state, Trial::of(state), a_, next_.z, next_.history);
@@ -423,7 +435,8 @@ IntegratorMemory CentralDifference::save() const {
     return {{"acceleration", a_},
             {"net_force", net_},
             {"reactions", reactions_},
-            {"step", {dt_, critical_, bound_interval_, steps_since_bound_}}};
+            {"step", {dt_, critical_, bound_interval_, steps_since_bound_}},
+            {"bound", {bound_.omega, bound_.damping_rate, bound_.of_bonds}}};
 }
 
 void CentralDifference::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
@@ -439,6 +452,8 @@ void CentralDifference::load(const SemiDiscrete& system, State&, const Integrato
     critical_ = step[1];
     bound_interval_ = step[2];
     steps_since_bound_ = step[3];
+    const std::vector<double>& bound = take("bound", 3);
+    bound_ = {bound[0], bound[1], bound[2]};
 }
 
 }  // namespace gneiss

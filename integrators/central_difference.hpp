@@ -50,6 +50,8 @@ public:
 
 private:
     void evaluate_bound(const SemiDiscrete& system, const State& state);
+    /// The critical step of bound_.
+    void take_bound(const SemiDiscrete& system, const State& state);
     void allocate(const SemiDiscrete& system);
     /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
     void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
@@ -100,6 +102,7 @@ private:
     State next_;
     double dt_ = 0;  ///< last step, s
     double critical_ = 0;
+    FrequencyBound bound_;
     double bound_interval_ = 0;  ///< steps between two evaluations of the bound, adapted to how it changes
     double steps_since_bound_ = 0;
 

@@ -1,5 +1,6 @@
 #include "app/build_case.hpp"
 
+#include "app/checkpoints.hpp"
 #include "app/make_integrator.hpp"
 
 #include <fmt/format.h>
@@ -37,6 +38,24 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOption
     return absorbing_blocks(
         mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
         options.solid.thickness);
+}
+
+/// What stands around the solid, made anew from a mesh that has come apart.
+std::function<SolidSystem::Surroundings(const Mesh&)> surroundings_of(const SolidSystem& system, const Mesh& mesh,
+                                                                      const CaseOptions& options) {
+    std::vector<PlaneStiffness> stiffness;  // as it was at the start
+    if (!absorbing_edges(mesh, options.boundaries).empty())
+        stiffness = element_stiffness(mesh, system.elements().blocks());
+    return [loads = options.loads, boundaries = options.boundaries, thickness = options.solid.thickness,
+            stiffness = std::move(stiffness)](const Mesh& now) {
+        SolidSystem::Surroundings around;
+        around.terms = make_loads(now, loads, thickness);
+        around.constraints = make_constraints(now, boundaries);
+        if (const auto edges = absorbing_edges(now, boundaries); !edges.empty())
+            around.damping = absorbing_blocks(
+                now, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; }, thickness);
+        return around;
+    };
 }
 
 /// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
@@ -81,41 +100,72 @@ std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
 Case build_case(CaseOptions options) {
     Case built;
     MeshReport report;
-    built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
+    *built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
     for (const std::string& warning : report.warnings) built.warnings.push_back("mesh: " + warning);
 
-    std::vector<JointEdge> joints;
-    if (options.fracture.method != FractureOptions::Method::none) joints = open_all_sides(built.mesh);
+    const bool cracks = options.fracture.method != FractureOptions::Method::none;
+    const bool extrinsic = options.fracture.method == FractureOptions::Method::extrinsic;
+    std::vector<JointEdge> edges;
+    if (cracks) {
+        built.inner = std::make_unique<InnerSides>(*built.mesh);
+        edges = extrinsic ? all_edges(*built.mesh, *built.inner) : open_all_sides(*built.mesh, *built.inner);
+    }
 
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
-    collect(problems, [&] { parts.blocks = make_blocks(built.mesh, options.solid, options.materials); });
-    collect(problems, [&] { parts.terms = make_loads(built.mesh, options.loads, options.solid.thickness); });
-    collect(problems, [&] { parts.constraints = make_constraints(built.mesh, options.boundaries); });
-    collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
-    collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
-    if (options.fracture.method != FractureOptions::Method::none && !parts.blocks.empty())
+    collect(problems, [&] { parts.blocks = make_blocks(*built.mesh, options.solid, options.materials); });
+    collect(problems, [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness); });
+    collect(problems, [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries); });
+    collect(problems, [&] { parts.initial_velocity = initial_velocity(*built.mesh, options.initial); });
+    collect(problems, [&] { parts.damping.blocks = absorbing_damping(*built.mesh, options, parts.blocks); });
+    std::unique_ptr<Joints> joints;
+    std::vector<CohesionProperties<double>> properties;
+    if (cracks && !parts.blocks.empty())
         collect(problems, [&] {
-            parts.interactions.push_back(make_cohesion(built.mesh, joints, parts.blocks, options.materials,
-                                                       options.solid, options.fracture, built.warnings));
+            properties =
+                edge_properties(*built.mesh, edges, parts.blocks, options.materials, options.fracture, built.warnings);
+            if (extrinsic) {
+                watch_strength(edges, properties, parts.blocks);
+                joints = make_extrinsic_joints(*built.inner, properties, options.solid.thickness);
+            } else {
+                joints =
+                    make_cohesion(*built.mesh, edges, properties, options.fracture.method, options.solid.thickness);
+                properties.clear();
+            }
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
-    collect(problems, [&] { built.probes = ProbeTable(built.mesh, options.output.probes); });
+    collect(problems, [&] { built.probes = ProbeTable(*built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
-    if (built.integrator->is_static()) need_supports(built.mesh, parts);
+    if (joints) parts.interactions.push_back(std::move(joints));
+    if (built.integrator->is_static()) need_supports(*built.mesh, parts);
 
     for (const double time : options.output.field_times)
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
-    if (options.fracture.method == FractureOptions::Method::none &&
-        std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
+    if (!cracks && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
         built.warnings.push_back("material.strength: has no effect without fracture.method");
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
-    built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
-    built.reactions = ReactionTable(built.mesh, options.boundaries, built.system->constraints());
+    Joints* const cohesion = cracks ? static_cast<Joints*>(parts.interactions.front().get()) : nullptr;
+    built.system = std::make_unique<SolidSystem>(*built.mesh, std::move(parts));
+    if (cohesion != nullptr) {
+        auto cracking = std::make_unique<Cracking>(Cracking::Parts{
+            .mesh = *built.mesh,
+            .inner = *built.inner,
+            .solid = *built.system,
+            .joints = *cohesion,
+            .properties = std::move(properties),
+            .contact = false,
+            .surroundings = surroundings_of(*built.system, *built.mesh, options),
+            .loads_everywhere = std::ranges::any_of(
+                options.loads, [](const auto& load) { return load.kind == LoadOptions::Kind::body_force; })});
+        built.cracking = cracking.get();
+        built.system->add_event(std::move(cracking));
+    }
+    built.layout = layout_fingerprint(*built.mesh, *built.system);
+    built.reactions = ReactionTable(*built.mesh, options.boundaries, built.system->constraints());
     built.options = std::move(options);
     return built;
 }
@@ -129,8 +179,8 @@ double memory_estimate(const Case& built) {
                    sizeof(double);
     for (const auto& block : built.system->elements().blocks())
         bytes += static_cast<double>(block->bytes_per_element()) * static_cast<double>(block->n_elements());
-    bytes += static_cast<double>(built.mesh.n_elements()) * (built.mesh.nodes_per_element() * 4.0 + 12.0) +
-             static_cast<double>(built.mesh.n_nodes()) * 24.0;
+    bytes += static_cast<double>(built.mesh->n_elements()) * (built.mesh->nodes_per_element() * 4.0 + 12.0) +
+             static_cast<double>(built.mesh->n_nodes()) * 24.0;
     return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/tables.hpp"
+#include "fracture/cracking.hpp"
 #include "mesh/mesh.hpp"
 #include "model/options.hpp"
 #include "model/solid_system.hpp"
@@ -15,9 +16,12 @@ namespace gneiss {
 
 struct Case {
     CaseOptions options;
-    Mesh mesh;
-    std::vector<std::string> warnings;  ///< "mesh: …"
+    std::unique_ptr<Mesh> mesh = std::make_unique<Mesh>();  ///< comes apart under way where cracks grow
+    std::unique_ptr<InnerSides> inner;                      ///< of the mesh
+    std::vector<std::string> warnings;                      ///< "mesh: …"
     std::unique_ptr<SolidSystem> system;
+    Cracking* cracking = nullptr;  ///< one of the system's events; null: nothing cracks
+    std::string layout;            ///< fingerprint of mesh and blocks at the start: what z and history are ordered by
     std::unique_ptr<Integrator> integrator;
     ProbeTable probes;
     ReactionTable reactions;

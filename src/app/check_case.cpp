@@ -88,7 +88,7 @@ void print_cost_of_steps(const Case& built, const Measured& measured, std::ostre
     }
     print_line(out, "time per step",
                fmt::format("{:.3g} ms on {}, {:.3g} ns per element", 1e3 * measured.per_step, threads_text(),
-                           1e9 * measured.per_step / static_cast<double>(built.mesh.n_elements())));
+                           1e9 * measured.per_step / static_cast<double>(built.mesh->n_elements())));
     if (!from_error)
         print_line(out, "run time", fmt::format("about {}, output apart", duration_text(n_steps * measured.per_step)));
     print_memory(built, out);
@@ -122,7 +122,7 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("warning", too_many_threads);
     for (const std::string& warning : built.warnings) line("warning", warning);
 
-    const Mesh& mesh = built.mesh;
+    const Mesh& mesh = *built.mesh;
     const MeshSize size = mesh_size(mesh);
     line("elements", fmt::format("{} {}", size.n_elements, mesh.kind == ElementKind::cst ? "cst" : "compt"));
     line("nodes", fmt::format("{}", size.n_nodes));

@@ -13,28 +13,27 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// The same mesh in the same numbering, cut into the same blocks of the same packs: what z and history are ordered by.
-std::string layout_fingerprint(const Case& built) {
+}  // namespace
+
+std::string layout_fingerprint(const Mesh& mesh, const SolidSystem& system) {
     const auto bytes = [](const auto& values) {
         return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
     };
     std::vector<std::uint64_t> blocks{pack_width};
-    for (const auto& block : built.system->elements().blocks())
+    for (const auto& block : system.elements().blocks())
         blocks.insert(blocks.end(), {block->n_elements(), block->n_internal(), block->n_history()});
-    const Mesh& mesh = built.mesh;
     std::uint64_t sum = fingerprint(bytes(mesh.connectivity), fingerprint(bytes(mesh.nodes)));
     sum = fingerprint(bytes(blocks), fingerprint(bytes(mesh.region), sum));
     return fmt::format("{:016x}", sum);
 }
 
-}  // namespace
-
 void save_checkpoint(const std::filesystem::path& path, const std::string& deck_fingerprint, const Case& built,
                      const State& state, const RunProgress& progress) {
     Checkpoint checkpoint(deck_fingerprint);
-    checkpoint.set("layout", layout_fingerprint(built));
+    checkpoint.set("layout", built.layout);
     checkpoint.set("step", static_cast<std::int64_t>(progress.step));
     checkpoint.set("initial_energy", progress.initial_energy);
+    if (built.cracking != nullptr) checkpoint.set("cracks", built.cracking->save());
     checkpoint.set("state.t", state.t);
     checkpoint.set("state.last_event", state.last_event);
     checkpoint.set("state.u", state.u);
@@ -52,7 +51,7 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
 
 std::string load_checkpoint(const std::filesystem::path& path, const Case& built, State& state, RunProgress& progress) {
     const Checkpoint checkpoint = Checkpoint::load(path);
-    if (checkpoint.get<std::string>("layout") != layout_fingerprint(built))
+    if (checkpoint.get<std::string>("layout") != built.layout)
         throw InputError(
             path.string(),
             "was written for another mesh or other laws than the deck gives, or by a program built for other packs");
@@ -60,6 +59,7 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
         throw InputError(path.string(),
                          fmt::format("was written by integrator `{}`, the deck has `{}`",
                                      checkpoint.get<std::string>("integrator"), built.integrator->name()));
+    if (built.cracking != nullptr) built.cracking->replay(checkpoint.get<Vector>("cracks"));
     const Layout layout = built.system->layout();
     progress.step = static_cast<std::size_t>(checkpoint.get<std::int64_t>("step"));
     progress.initial_energy = checkpoint.get<double>("initial_energy");

@@ -13,6 +13,9 @@ struct RunProgress {
     double initial_energy = 0;  ///< J
 };
 
+/// The same mesh in the same numbering, cut into the same blocks of the same packs: what z and history are ordered by.
+std::string layout_fingerprint(const Mesh& mesh, const SolidSystem& system);
+
 void save_checkpoint(const std::filesystem::path& path, const std::string& deck_fingerprint, const Case& built,
                      const State& state, const RunProgress& progress);
 

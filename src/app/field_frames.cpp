@@ -7,9 +7,18 @@
 namespace gneiss {
 namespace {
 
-FieldSeries make_series(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time) {
+/// The triangles of a mesh as .vtu files have them.
+struct FieldTriangles {
+    explicit FieldTriangles(const Mesh& mesh);
+    FieldMesh on(const Mesh& mesh) const {
+        return {mesh.nodes, triangles, {{"element", elements}, {"region", regions}}};
+    }
+
     std::vector<std::array<std::int32_t, 3>> triangles;
     std::vector<std::int32_t> elements, regions;
+};
+
+FieldTriangles::FieldTriangles(const Mesh& mesh) {
     for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
         const std::int32_t* nodes = mesh.element(e);
         const auto add = [&](const SubTriangle& triangle) {
@@ -22,15 +31,16 @@ FieldSeries make_series(const std::filesystem::path& folder, const Mesh& mesh, s
         else
             for (const SubTriangle& sub : composite_sub_triangles) add(counter_clockwise(sub));
     }
-    return FieldSeries(folder, {mesh.nodes, triangles, {{"element", elements}, {"region", regions}}}, restart_time);
 }
 
 }  // namespace
 
 FieldFrames::FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time)
-    : series_(make_series(folder, mesh, restart_time)) {}
+    : mesh_(mesh), n_nodes_(mesh.n_nodes()), series_(folder, FieldTriangles(mesh).on(mesh), restart_time) {}
 
 void FieldFrames::write(const SolidSystem& system, const State& state, std::size_t step) {
+    if (mesh_.n_nodes() != n_nodes_) series_.set_mesh(FieldTriangles(mesh_).on(mesh_));
+    n_nodes_ = mesh_.n_nodes();
     const std::vector<PointFields> points = system.point_fields(state);
     std::vector<double> speed(state.v.size() / 2), cauchy, munjiza, stretch, alpha, beta;
     for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::hypot(state.v[2 * i], state.v[2 * i + 1]);

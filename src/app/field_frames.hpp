@@ -13,12 +13,15 @@ namespace gneiss {
 /// number of the element and of its region.
 class FieldFrames {
 public:
+    /// @param mesh  has to outlive the frames; they follow it
     /// @param restart_time  as in FieldSeries
     FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time);
 
     void write(const SolidSystem& system, const State& state, std::size_t step);
 
 private:
+    const Mesh& mesh_;
+    std::size_t n_nodes_;  ///< of the last frame: it grows where cracks open
     FieldSeries series_;
 };
 

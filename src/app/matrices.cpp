@@ -51,10 +51,11 @@ nlohmann::ordered_json description(const RunArguments& arguments, const Case& bu
     std::vector<std::size_t> constrained;
     for (const Constraint& constraint : built.system->constraints()) constrained.push_back(constraint.dof);
     json["constrained_dofs"] = constrained;
-    json["nodes_m"] = built.mesh.nodes;
+    json["nodes_m"] = built.mesh->nodes;
     auto& elements = json["elements"] = nlohmann::ordered_json::array();
-    for (std::size_t e = 0; e < built.mesh.n_elements(); ++e)
-        elements.push_back(std::vector(built.mesh.element(e), built.mesh.element(e) + built.mesh.nodes_per_element()));
+    for (std::size_t e = 0; e < built.mesh->n_elements(); ++e)
+        elements.push_back(
+            std::vector(built.mesh->element(e), built.mesh->element(e) + built.mesh->nodes_per_element()));
     json["displacement_m"] = state.u;
     std::vector<double> force(state.u.size());
     built.system->force(state, Trial::of(state), force);

@@ -5,6 +5,7 @@
 
 #include "app/build_case.hpp"
 #include "app/checkpoints.hpp"
+#include "app/crack_frames.hpp"
 #include "app/field_frames.hpp"
 #include "app/make_integrator.hpp"
 #include "app/run_summary.hpp"
@@ -58,7 +59,10 @@ private:
         for (auto* table : {&history_file_, &probes_file_, &reactions_file_, &steps_file_})
             if (*table) body(**table);
     }
-    void write_frame() { frames_->write(*case_.system, state_, progress_.step); }
+    void write_frame() {
+        frames_->write(*case_.system, state_, progress_.step);
+        if (cracks_) cracks_->write(state_, progress_.step);
+    }
     void write_checkpoint();
     void write_summary_file(RunStatus status, const std::string& message = "");
     int end(RunStatus status, const std::string& message, int code);
@@ -85,6 +89,7 @@ private:
     std::optional<Schedule> schedule_;
     std::optional<CsvSeries> history_file_, probes_file_, reactions_file_, steps_file_;
     std::optional<FieldFrames> frames_;
+    std::optional<CrackFrames> cracks_;
     std::optional<Progress> bar_;
 };
 
@@ -128,7 +133,7 @@ void Run::open_results() {
     log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
     log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
     for (const std::string& set : arguments_.set) log_->info("set: {}", set);
-    const MeshSize size = mesh_size(case_.mesh);
+    const MeshSize size = mesh_size(*case_.mesh);
     log_->info("mesh: {} elements, {} nodes, edges {:.4g} to {:.4g} m", size.n_elements, size.n_nodes,
                size.smallest_edge, size.largest_edge);
     for (const std::string& warning : case_.warnings) log_->warn("{}", warning);
@@ -137,13 +142,14 @@ void Run::open_results() {
 
     write_atomically(out_ / "deck.toml", deck_text_);
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
-    history_file_.emplace(out_ / "history.csv", history_columns(), restart_time);
+    history_file_.emplace(out_ / "history.csv", history_columns(case_.cracking != nullptr), restart_time);
     if (!case_.probes.empty()) probes_file_.emplace(out_ / "probes.csv", case_.probes.columns(), restart_time);
     if (!case_.reactions.empty())
         reactions_file_.emplace(out_ / "reactions.csv", case_.reactions.columns(), restart_time);
     if (!case_.integrator->step_columns().empty())
         steps_file_.emplace(out_ / "load_steps.csv", step_columns(*case_.integrator), restart_time);
-    frames_.emplace(out_, case_.mesh, restart_time);
+    frames_.emplace(out_, *case_.mesh, restart_time);
+    if (case_.cracking != nullptr) cracks_.emplace(out_, *case_.cracking, restart_time);
 }
 
 EnergyLedger Run::ledger() const {
@@ -170,14 +176,19 @@ void Run::begin() {
 void Run::write_rows(double dt) {
     const EnergyLedger energies = ledger();
     balance_error_ = energies.balance_error();
-    history_file_->row(history_row(state_.t, progress_.step, dt, energies));
+    std::vector<double> row = history_row(state_.t, progress_.step, dt, energies);
+    if (case_.cracking != nullptr) add_crack_columns(*case_.cracking, state_, row);
+    history_file_->row(row);
     if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state_));
+    if (reactions_file_ && case_.reactions.n_constraints() != case_.system->constraints().size())
+        case_.reactions = ReactionTable(*case_.mesh, case_.options.boundaries, case_.system->constraints());
     if (reactions_file_) reactions_file_->row(case_.reactions.row(state_.t, case_.integrator->reactions()));
 }
 
 void Run::write_checkpoint() {
     // A checkpoint must not be ahead of the tables: after a crash, a restart could not bring the missing rows back.
     for_each_table([](CsvSeries& table) { table.flush(); });
+    if (cracks_) cracks_->flush();
     save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_);
 }
 
@@ -216,7 +227,7 @@ ProgressState Run::progress_state() const {
 void Run::write_summary_file(RunStatus status, const std::string& message) {
     RunSummary summary =
         summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
-                  {state_.t, last_dt_, progress_.step, first_step_, setup_time_, seconds_since(started_), ledger()});
+                  {state_, last_dt_, progress_.step, first_step_, setup_time_, seconds_since(started_), ledger()});
     summary.status = status;
     summary.message = message;
     summary.deck_fingerprint = fingerprint_;

@@ -10,22 +10,30 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
     summary.title = built.options.title;
     summary.groups["deck"] = deck;
     if (!set.empty()) summary.groups["overrides"] = set;
-    summary.groups["counts"] = {{"elements", built.mesh.n_elements()},
-                                {"nodes", built.mesh.n_nodes()},
+    summary.groups["counts"] = {{"elements", built.mesh->n_elements()},
+                                {"nodes", built.mesh->n_nodes()},
                                 {"steps", now.step},
                                 {"threads", omp_get_max_threads()}};
-    summary.groups["time"] = {{"t_s", now.t}, {"t_end_s", built.options.run.t_end}, {"last_dt_s", now.last_dt}};
+    if (built.cracking != nullptr) {
+        std::vector<double> cracks;
+        add_crack_columns(*built.cracking, now.state, cracks);
+        summary.groups["cracks"] = {{"cracked_length_m", cracks[0]},
+                                    {"fragments", cracks[1]},
+                                    {"nodes", cracks[2]},
+                                    {"splitting_events", built.cracking->n_events()}};
+    }
+    summary.groups["time"] = {{"t_s", now.state.t}, {"t_end_s", built.options.run.t_end}, {"last_dt_s", now.last_dt}};
 
     const double stepping = now.wall_time - now.setup_time;
     const auto steps = static_cast<double>(now.step - now.first_step);
-    const auto elements = static_cast<double>(built.mesh.n_elements());
+    const auto elements = static_cast<double>(built.mesh->n_elements());
     summary.groups["timings"] = {{"setup_s", now.setup_time},
                                  {"steps_s", stepping},
                                  {"wall_s", now.wall_time},
                                  {"ns_per_element_step", steps > 0 ? 1e9 * stepping / (steps * elements) : 0.0}};
 
     const std::vector<CsvColumn> columns = history_columns();
-    const std::vector<double> row = history_row(now.t, now.step, now.last_dt, now.energies);
+    const std::vector<double> row = history_row(now.state.t, now.step, now.last_dt, now.energies);
     for (std::size_t k = 0; k < columns.size(); ++k)
         if (columns[k].unit == "J") summary.groups["energies_J"][columns[k].name] = row[k];
     summary.groups["energies_J"]["initial"] = now.energies.initial;

@@ -12,7 +12,8 @@ namespace gneiss {
 
 /// Where a run stands.
 struct RunNumbers {
-    double t = 0, last_dt = 0;             ///< s
+    const State& state;                    ///< last accepted
+    double last_dt = 0;                    ///< s
     std::size_t step = 0, first_step = 0;  ///< of the whole run; the first of this part of it, after a restart
     double setup_time = 0, wall_time = 0;  ///< s
     EnergyLedger energies;

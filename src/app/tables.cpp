@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 
+#include "app/crack_frames.hpp"
 #include "base/errors.hpp"
+#include "mesh/sub_triangles.hpp"
 #include "model/mesh_names.hpp"
 
 namespace gneiss {
 
-std::vector<CsvColumn> history_columns() {
+std::vector<CsvColumn> history_columns(bool cracks) {
     std::vector<CsvColumn> columns{{"t", "s"}, {"step"}, {"dt", "s"}};
     for (const char* energy :
          {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "external_work",
@@ -17,7 +19,14 @@ std::vector<CsvColumn> history_columns() {
           "dissipated_fracture", "dissipated_contact", "splitting", "left_over"})
         columns.push_back({energy, "J"});
     columns.push_back({"balance_error"});
+    if (cracks) columns.insert(columns.end(), {{"cracked_length", "m"}, {"fragments"}, {"nodes"}});
     return columns;
+}
+
+void add_crack_columns(const Cracking& cracking, const State& state, std::vector<double>& row) {
+    row.push_back(cracking.joints().cracked_length(cracking.history(state)));
+    row.push_back(static_cast<double>(find_fragments(cracking, state).all.size()));
+    row.push_back(static_cast<double>(cracking.mesh().n_nodes()));
 }
 
 std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger) {
@@ -57,7 +66,7 @@ std::vector<double> step_row(const StepReport& step) {
     return row;
 }
 
-ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) {
+ProbeTable::ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes) : mesh_(&mesh) {
     std::vector<Problem> problems;
     for (const ProbeOptions& given : probes) {
         try {
@@ -130,11 +139,12 @@ std::vector<double> ReactionTable::row(double t, std::span<const double> reactio
 
 std::vector<double> ProbeTable::row(const SolidSystem& system, const State& state) const {
     std::vector<double> row{state.t};
-    const auto at = [](const std::vector<double>& nodal, const MeshPoint& point) {
+    const auto at = [&](const std::vector<double>& nodal, const MeshPoint& point) {
         std::array<double, 2> value{0, 0};
+        const auto nodes = triangle_nodes(*mesh_, static_cast<std::size_t>(point.element), point.sub_triangle);
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t c = 0; c < 2; ++c)
-                value[c] += point.weights[k] * nodal[2 * static_cast<std::size_t>(point.nodes[k]) + c];
+                value[c] += point.weights[k] * nodal[2 * static_cast<std::size_t>(nodes[k]) + c];
         return value;
     };
     for (const Probe& probe : probes_) {

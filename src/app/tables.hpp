@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "fracture/cracking.hpp"
 #include "io/output/csv_series.hpp"
 #include "mesh/locate.hpp"
 #include "model/energy_ledger.hpp"
@@ -14,7 +15,10 @@
 namespace gneiss {
 
 /// The columns of history.csv.
-std::vector<CsvColumn> history_columns();
+/// @param cracks  with those of add_crack_columns()
+std::vector<CsvColumn> history_columns(bool cracks = false);
+/// Length of edges that have failed (m, in the reference shape), number of fragments, number of nodes.
+void add_crack_columns(const Cracking& cracking, const State& state, std::vector<double>& row);
 /// One row of it, in the order of history_columns().
 std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger);
 
@@ -28,6 +32,7 @@ std::vector<double> step_row(const StepReport& step);
 class ProbeTable {
 public:
     ProbeTable() = default;
+    /// @param mesh  has to outlive the table, which follows it
     /// @throws InputError with every probe that lies outside the solid
     ProbeTable(const Mesh& mesh, const std::vector<ProbeOptions>& probes);
 
@@ -39,6 +44,7 @@ public:
     std::vector<double> row(const SolidSystem& system, const State& state) const;
 
 private:
+    const Mesh* mesh_ = nullptr;
     struct Probe {
         std::string name;
         MeshPoint point;
@@ -57,6 +63,7 @@ public:
                   std::span<const Constraint> constraints);
 
     bool empty() const { return columns_.empty(); }
+    std::size_t n_constraints() const { return column_of_.size(); }
     /// Columns: t, then R_x and R_y of each name in the order of the deck, where they are prescribed. A degree of
     /// freedom that two names share belongs to the first: the columns add up to all there is.
     std::vector<CsvColumn> columns() const;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -34,18 +35,29 @@ std::string place(std::size_t material) { return fmt::format("[[material]] {}", 
 
 }  // namespace
 
-std::vector<JointEdge> open_all_sides(Mesh& mesh) {
-    InnerSides inner(mesh);
+std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner) {
     std::vector<std::int32_t> all(inner.sides().size());
     std::iota(all.begin(), all.end(), 0);
-    inner.open(all);
     return joint_edges(mesh, inner, all);
 }
 
-std::unique_ptr<Interaction> make_cohesion(const Mesh& mesh, std::span<const JointEdge> edges,
-                                           std::span<const std::unique_ptr<ElementBlock>> blocks,
-                                           const std::vector<MaterialOptions>& materials, const SolidOptions& solid,
-                                           const FractureOptions& fracture, std::vector<std::string>& warnings) {
+std::vector<JointEdge> open_all_sides(Mesh& mesh, InnerSides& inner) {
+    std::vector<std::int32_t> all(inner.sides().size());
+    std::iota(all.begin(), all.end(), 0);
+    inner.open(all);
+    return all_edges(mesh, inner);
+}
+
+std::vector<JointEdge> open_all_sides(Mesh& mesh) {
+    InnerSides inner(mesh);
+    return open_all_sides(mesh, inner);
+}
+
+std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::span<const JointEdge> edges,
+                                                        std::span<const std::unique_ptr<ElementBlock>> blocks,
+                                                        const std::vector<MaterialOptions>& materials,
+                                                        const FractureOptions& fracture,
+                                                        std::vector<std::string>& warnings) {
     std::vector<Problem> problems;
     const std::vector<std::int32_t> material_of = material_of_elements(mesh, materials);
     for (std::size_t m = 0; m < materials.size(); ++m)
@@ -61,7 +73,7 @@ std::unique_ptr<Interaction> make_cohesion(const Mesh& mesh, std::span<const Joi
 
     const bool y_code = fracture.method == FractureOptions::Method::y_code;
     std::set<std::string> refused;
-    std::vector<Joint> joints;
+    std::vector<CohesionProperties<double>> all;
     std::size_t n_coarse = 0;
     double shortest = std::numeric_limits<double>::infinity(), its_edge = 0;
     for (const JointEdge& edge : edges) {
@@ -104,17 +116,66 @@ std::unique_ptr<Interaction> make_cohesion(const Mesh& mesh, std::span<const Joi
                 its_edge = length;
             }
         }
-        joints.push_back({edge.nodes, properties});
+        all.push_back(properties);
     }
     if (!problems.empty()) throw InputError(problems);
-    if (joints.empty()) throw InputError("[fracture]", "the mesh has a single element: no edge can crack");
+    if (all.empty()) throw InputError("[fracture]", "the mesh has a single element: no edge can crack");
     if (n_coarse > 0)
         warnings.push_back(
             fmt::format("fracture: {} of {} edges are longer than the length over which a crack softens, G E/f_t^2; at "
                         "the worst one "
                         "of {:.3g} m it is {:.3g} m: cracks there depend on the mesh",
-                        n_coarse, joints.size(), its_edge, shortest * its_edge));
-    return make_joints(mesh, joints, y_code ? JointLaw::y_code : JointLaw::intrinsic, solid.thickness);
+                        n_coarse, all.size(), its_edge, shortest * its_edge));
+    return all;
+}
+
+std::unique_ptr<Joints> make_cohesion(const Mesh& mesh, std::span<const JointEdge> edges,
+                                      std::span<const CohesionProperties<double>> properties,
+                                      FractureOptions::Method method, double thickness) {
+    std::vector<Joint> joints;
+    for (std::size_t i = 0; i < edges.size(); ++i) joints.push_back({edges[i].nodes, properties[i], edges[i].side});
+    return make_joints(mesh, joints, method == FractureOptions::Method::y_code ? JointLaw::y_code : JointLaw::intrinsic,
+                       thickness);
+}
+
+void watch_strength(std::span<const JointEdge> edges, std::span<const CohesionProperties<double>> properties,
+                    std::span<const std::unique_ptr<ElementBlock>> blocks) {
+    // a block's watch is that of its weakest edge, but for a factor of each element
+    struct Least {
+        double tensile_strength = std::numeric_limits<double>::infinity(), cohesion = tensile_strength,
+               tan_phi = tensile_strength;
+        void take(const CohesionProperties<double>& p) {
+            tensile_strength = std::min(tensile_strength, p.tensile_strength);
+            cohesion = std::min(cohesion, p.cohesion);
+            tan_phi = std::min(tan_phi, p.tan_phi_initial);
+        }
+    };
+    std::map<std::int32_t, Least> of_element;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        for (const std::int32_t e : {edges[i].left, edges[i].right}) of_element[e].take(properties[i]);
+    for (const auto& block : blocks) {
+        StrengthWatch watch;
+        Least least;
+        const auto of = [&](std::size_t local) { return of_element.find(block->element(local)); };
+        for (std::size_t local = 0; local < block->n_elements(); ++local)
+            if (const auto found = of(local); found != of_element.end()) {
+                least.tensile_strength = std::min(least.tensile_strength, found->second.tensile_strength);
+                least.cohesion = std::min(least.cohesion, found->second.cohesion);
+                least.tan_phi = std::min(least.tan_phi, found->second.tan_phi);
+            }
+        if (!std::isfinite(least.cohesion)) continue;  // no element of it touches another one
+        watch.tensile_strength = least.tensile_strength;
+        watch.cohesion = least.cohesion;
+        watch.tan_phi = least.tan_phi;
+        watch.factor_squared.assign(block->n_packs() * pack_width, std::numeric_limits<double>::infinity());
+        for (std::size_t local = 0; local < block->n_elements(); ++local)
+            if (const auto found = of(local); found != of_element.end()) {
+                const double factor = std::min(found->second.tensile_strength / least.tensile_strength,
+                                               found->second.cohesion / least.cohesion);
+                watch.factor_squared[local] = factor * factor;
+            }
+        block->watch(std::move(watch));
+    }
 }
 
 }  // namespace gneiss

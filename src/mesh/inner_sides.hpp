@@ -48,16 +48,18 @@ public:
     /// @return the copies, in the order of their numbers
     std::vector<NodeCopy> open(std::span<const std::int32_t> sides);
 
+    /// Elements that have a node, ascending.
+    std::span<const std::int32_t> elements_at(std::int32_t node) const {
+        const Range& range = at_node_[static_cast<std::size_t>(node)];
+        return std::span(elements_).subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.n));
+    }
+
 private:
     struct Range {
         std::int32_t first, n;
     };
     std::size_t index(const ElementSide& side) const {
         return 3 * static_cast<std::size_t>(side.element) + static_cast<std::size_t>(side.side);
-    }
-    std::span<std::int32_t> elements_at(std::int32_t node) {
-        const Range& range = at_node_[static_cast<std::size_t>(node)];
-        return std::span(elements_).subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.n));
     }
     /// Parts the elements at a node into groups that hold together.
     void split(std::int32_t node, std::vector<NodeCopy>& copies);

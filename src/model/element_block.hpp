@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "base/functions.hpp"
 #include "base/pack.hpp"
 #include "materials/elastic_constants.hpp"
+#include "materials/point.hpp"
 #include "materials/viscous_stress.hpp"
 #include "mesh/mesh.hpp"
 
@@ -39,6 +41,32 @@ struct PointFields {
     std::array<double, 2> alpha, beta;  ///< current axes, length = stretch
 };
 
+/// A bound on the strength of the sides of a block's elements: what a block compares its stresses with while it
+/// computes forces. With s_1 the larger principal stress, m their mean and r half their difference, no side of whatever
+/// direction can reach its envelope (src/fracture/envelope.hpp) where
+///
+///   (<s_1>/f_t)^2 + (<r/cos phi + m tan phi>/c_0)^2 <= 1,
+///
+/// because the second bracket is the largest |tau| + sigma tan phi over all directions.
+struct StrengthWatch {
+    double tensile_strength = 0;  ///< f_t, Pa, > 0, before the factor
+    double cohesion = 0;          ///< c_0, Pa, > 0, before the factor
+    double tan_phi = 0;           ///< -, >= 0
+    PackVector factor_squared;    ///< of each element, -, shape (packs, pack_width)
+
+    /// Left side over the factor squared.
+    template <class V>
+    V index(const Symmetric2<V>& stress) const {
+        const V mean = 0.5 * (stress.xx + stress.yy), half = 0.5 * (stress.xx - stress.yy);
+        const V radius = square_root(V(half * half + stress.xy * stress.xy));
+        const V zero(0.0), first = mean + radius;
+        const V rest = std::sqrt(1 + tan_phi * tan_phi) * radius + tan_phi * mean;
+        const V tension = choose(first > zero, V(first / tensile_strength), zero);
+        const V shear = choose(rest > zero, V(rest / cohesion), zero);
+        return tension * tension + shear * shear;
+    }
+};
+
 class ElementBlock {
 public:
     /// Where to read and where to write. Pointers to z and history are those of this block's own part.
@@ -50,6 +78,7 @@ public:
         bool given = false;               ///< stresses from z as it is
         double* z_updated = nullptr;      ///< null: no update wanted
         double* history_updated = nullptr;
+        double* beyond = nullptr;  ///< per pack, see Watch; null: nobody watches
     };
     static constexpr std::ptrdiff_t none = -1;
 
@@ -78,10 +107,18 @@ public:
     /// The same as positions among the nodes of a chunk, set by the assembly: 16 bits that stay in the nearest cache.
     virtual std::span<PairBytes> local_nodes() = 0;
 
+    /// Follows a mesh in which some of its elements have other nodes than before, at the same places.
+    virtual void renumber(const Mesh& mesh, std::span<const std::int32_t> locals) = 0;
+
+    /// From here on forces also tell, in Evaluation::beyond, which lanes of each pack have a sub-triangle whose stress
+    /// is beyond the watch: bit 0 for the first lane, as a whole number in a double. Viscous stress is left out.
+    void watch(StrengthWatch watch) { watch_ = std::move(watch); }
+    bool watched() const { return !watch_.factor_squared.empty(); }
     virtual void initial_memory(double* z, double* history) const = 0;
     /// SemiDiscrete::internal_weights() of the block's own z.
     virtual void internal_weights(double* weights) const = 0;
-    virtual void add_mass(std::span<double> mass) const = 0;
+    /// Adds an element's mass at both components of its nodes, kg.
+    virtual void add_mass(std::size_t local, std::span<double> mass) const = 0;
 
     /// Pairs of the nodes of a chunk, by local_nodes().
     struct LocalNodes {
@@ -135,6 +172,9 @@ public:
     virtual MunjizaConstants tangent_constants(std::size_t local) const = 0;
     virtual double axis_angle(std::size_t local) const = 0;
     virtual double density() const = 0;
+
+protected:
+    StrengthWatch watch_;
 };
 
 /// Packs [first, last) of a block.

@@ -24,6 +24,7 @@ constexpr std::size_t many_nodes = (1 << 20) / (2 * bytes_per_pair);
 
 ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, const Mesh& mesh)
     : blocks_(std::move(blocks)),
+      place_(mesh.n_elements()),
       n_nodes_(mesh.n_nodes()),
       far_(mesh.n_nodes() > many_nodes),
       labels_(mesh.element_labels) {
@@ -31,7 +32,13 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
         const ElementBlock& block = *blocks_[b];
         z_offset_.push_back(z_offset_.back() + block.n_internal());
         history_offset_.push_back(history_offset_.back() + block.n_history());
+        for (std::size_t local = 0; local < block.n_elements(); ++local)
+            place_[static_cast<std::size_t>(block.element(local))] = {static_cast<std::int32_t>(b),
+                                                                      static_cast<std::int32_t>(local)};
     }
+    watch_offset_.push_back(history_offset_.back());
+    for (const auto& block : blocks_)
+        watch_offset_.push_back(watch_offset_.back() + (block->watched() ? block->n_packs() : 0));
     for (const PackRange& range : pack_ranges(blocks_, chunk_size)) chunks_.push_back({range});
     inverted_.resize(chunks_.size());
     sums_.resize(chunks_.size());
@@ -46,7 +53,23 @@ auto ElementForces::nodes_of(const Chunk& chunk) -> std::pair<std::span<const st
     return {block.nodes().subspan(first, count), block.local_nodes().subspan(first, count)};
 }
 
+void ElementForces::renumber(const Mesh& mesh, std::span<const std::int32_t> elements) {
+    std::vector<std::vector<std::int32_t>> locals(blocks_.size());
+    for (const std::int32_t e : elements) {
+        const Place& place = place_[static_cast<std::size_t>(e)];
+        locals[static_cast<std::size_t>(place.block)].push_back(place.local);
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) blocks_[b]->renumber(mesh, locals[b]);
+    n_nodes_ = mesh.n_nodes();
+    plan();
+}
+
 void ElementForces::plan() {
+    chunk_nodes_.clear();
+    chunk_slots_.clear();
+    shared_nodes_.clear();
+    slot_starts_.clear();
+    largest_chunk_ = n_slots_ = 0;
     std::vector<std::int32_t> local(n_nodes_), touched(n_nodes_, 0);
     for (Chunk& chunk : chunks_) {
         const auto nodes = nodes_of(chunk).first;
@@ -100,8 +123,21 @@ bool ElementForces::viscous() const {
 
 std::vector<double> ElementForces::lumped_mass() const {
     std::vector<double> mass(2 * n_nodes_, 0.0);
-    for (const auto& block : blocks_) block->add_mass(mass);
+    for (const auto& block : blocks_)
+        for (std::size_t local = 0; local < block->n_elements(); ++local) block->add_mass(local, mass);
     return mass;
+}
+
+void ElementForces::add_mass(std::int32_t element, std::span<double> mass) const {
+    const Place& place = place_[static_cast<std::size_t>(element)];
+    blocks_[static_cast<std::size_t>(place.block)]->add_mass(static_cast<std::size_t>(place.local), mass);
+}
+
+void ElementForces::point_fields(std::int32_t element, const State& state, PointFields* fields) const {
+    const Place& place = place_[static_cast<std::size_t>(element)];
+    const auto block = static_cast<std::size_t>(place.block);
+    blocks_[block]->point_fields(static_cast<std::size_t>(place.local), evaluation(block, state, Trial::of(state)),
+                                 fields);
 }
 
 void ElementForces::initial_memory(std::span<double> z, std::span<double> history) const {
@@ -140,6 +176,7 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
         if (!z.empty() || !history.empty()) {
             at.z_updated = z.data() + z_offset_[block];
             at.history_updated = history.data() + history_offset_[block];
+            if (blocks_[block]->watched()) at.beyond = history.data() + watch_offset_[block];
         }
         return at;
     };

@@ -24,9 +24,20 @@ public:
 
     std::span<const std::unique_ptr<ElementBlock>> blocks() const { return blocks_; }
     std::size_t n_internal() const { return z_offset_.back(); }
-    std::size_t n_history() const { return history_offset_.back(); }
+    /// The blocks' own, then what they tell of their watches.
+    std::size_t n_history() const { return watch_offset_.back(); }
+    /// Evaluation::beyond of a block in an accepted state; empty: it is not watched.
+    std::span<const double> beyond(std::size_t block, const State& accepted) const {
+        return std::span(accepted.history)
+            .subspan(watch_offset_[block], watch_offset_[block + 1] - watch_offset_[block]);
+    }
+    /// Follows a mesh in which these elements have other nodes than before.
+    void renumber(const Mesh& mesh, std::span<const std::int32_t> elements);
     bool viscous() const;
     std::vector<double> lumped_mass() const;
+    void add_mass(std::int32_t element, std::span<double> mass) const;
+    void point_fields(std::int32_t element, const State& state, PointFields* fields) const;
+    int n_sub_triangles() const { return blocks_.front()->n_sub_triangles(); }
     void initial_memory(std::span<double> z, std::span<double> history) const;
 
     /// @param[out] f  overwritten, N, shape (2 n_nodes)
@@ -68,7 +79,11 @@ private:
                                      double t) const;
 
     std::vector<std::unique_ptr<ElementBlock>> blocks_;
-    std::vector<std::size_t> z_offset_{0}, history_offset_{0};
+    std::vector<std::size_t> z_offset_{0}, history_offset_{0}, watch_offset_;
+    struct Place {
+        std::int32_t block, local;
+    };
+    std::vector<Place> place_;  ///< of each element of the mesh
     std::vector<Chunk> chunks_;
     std::size_t n_nodes_;
     bool far_;                          ///< nodal values come from beyond the second-level cache

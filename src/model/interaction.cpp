@@ -15,6 +15,11 @@ void Interactions::initial_history(std::span<double> history) const {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->initial_history(part(i, history));
 }
 
+std::span<double> Interactions::part(const Interaction& interaction, State& state) const {
+    const auto found = std::ranges::find(all_, &interaction, [](const auto& one) { return one.get(); });
+    return part(static_cast<std::size_t>(found - all_.begin()), std::span(state.history));
+}
+
 bool Interactions::watch() const {
     return std::ranges::any_of(all_, [](const auto& one) { return one->watches(); });
 }

@@ -16,8 +16,9 @@ namespace gneiss {
 
 /// How a mesh has come apart between two steps.
 struct Parting {
-    const Mesh& mesh;                  ///< as it is now
-    std::span<const NodeCopy> copies;  ///< nodes that have come into being, in the order of their numbers
+    const Mesh& mesh;                        ///< as it is now
+    std::span<const NodeCopy> copies;        ///< nodes that have come into being, in the order of their numbers
+    std::span<const std::int32_t> elements;  ///< at originals and copies, ascending: their nodes may have changed
     std::span<const std::int32_t>
         opened;  ///< inner sides that have opened: their nodes may part, a cohesion holds them
     std::span<const std::int32_t> failed;  ///< inner sides that nothing holds any more: contact takes over
@@ -89,6 +90,8 @@ public:
     bool empty() const { return all_.empty(); }
     std::size_t size() const { return all_.size(); }
     const Interaction& operator[](std::size_t i) const { return *all_[i]; }
+    /// @param interaction  one of them
+    std::span<double> part(const Interaction& interaction, State& state) const;
     bool watch() const;
     /// Interaction::look() of all of them.
     bool look(const State& accepted);

@@ -84,6 +84,7 @@ struct MaterialOptions {
 struct FractureOptions {
     enum class Method {
         none,
+        extrinsic,  ///< sides open where they reach their strength
         intrinsic,  ///< joints on every edge from the start, mixed-mode law
         y_code      ///< the same with Y-code's law
     };

@@ -30,7 +30,7 @@ private:
 
 SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
     : elements_(std::move(parts.blocks), mesh),
-      place_(mesh.n_elements()),
+      n_elements_(mesh.n_elements()),
       terms_(std::move(parts.terms)),
       interactions_(std::move(parts.interactions), elements_.n_history()),
       constraints_(std::move(parts.constraints)),
@@ -38,12 +38,6 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
       initial_velocity_(std::move(parts.initial_velocity)),
       mass_(elements_.lumped_mass()),
       smallest_edge_(mesh_size(mesh).smallest_edge) {
-    for (std::size_t b = 0; b < elements_.blocks().size(); ++b) {
-        const ElementBlock& block = *elements_.blocks()[b];
-        for (std::size_t local = 0; local < block.n_elements(); ++local)
-            place_[static_cast<std::size_t>(block.element(local))] = {static_cast<std::int32_t>(b),
-                                                                      static_cast<std::int32_t>(local)};
-    }
     std::vector<double> switches = constraints_.switch_times();
     for (const auto& term : terms_) {
         const std::vector<double> own = term->switch_times();
@@ -67,6 +61,41 @@ State SolidSystem::initial_state() const {
     interactions_.initial_history(state.history);
     if (elements_.viscous()) state.path.viscous_power = elements_.energies(state, Trial::of(state)).viscous_power;
     return state;
+}
+
+void SolidSystem::follow(const Parting& parting, std::optional<Surroundings> surroundings, State& accepted) {
+    elements_.renumber(parting.mesh, parting.elements);
+    for (const NodeCopy& copy : parting.copies)
+        for (std::vector<double>* nodal : {&accepted.u, &accepted.v})
+            for (std::size_t c = 0; c < 2; ++c)
+                nodal->push_back(double{(*nodal)[2 * static_cast<std::size_t>(copy.original) + c]});
+    mass_.resize(2 * parting.mesh.n_nodes());
+    std::vector<bool> weighed(parting.mesh.n_nodes(), true);
+    const auto n = static_cast<std::size_t>(parting.mesh.nodes_per_element());
+    for (const NodeCopy& copy : parting.copies)
+        for (const std::int32_t node : {copy.original, copy.copy}) {
+            weighed[static_cast<std::size_t>(node)] = false;
+            mass_[2 * static_cast<std::size_t>(node)] = mass_[2 * static_cast<std::size_t>(node) + 1] = 0;
+        }
+    own_mass_.resize(mass_.size());
+    for (const std::int32_t e : parting.elements) {
+        const std::span nodes(parting.mesh.element(static_cast<std::size_t>(e)), n);
+        for (const std::int32_t node : nodes)
+            for (std::size_t c = 0; c < 2; ++c) own_mass_[2 * static_cast<std::size_t>(node) + c] = 0;
+        elements_.add_mass(e, own_mass_);
+        for (const std::int32_t node : nodes) {
+            const auto i = static_cast<std::size_t>(node);
+            for (std::size_t c = 0; c < 2; ++c)
+                if (!weighed[i]) mass_[2 * i + c] += own_mass_[2 * i + c];
+        }
+    }
+    if (surroundings) {
+        terms_ = std::move(surroundings->terms);
+        constraints_ = std::move(surroundings->constraints);
+        damping_.blocks = std::move(surroundings->damping);
+    }
+    interactions_.follow(parting, accepted);
+    tangent_.reset();
 }
 
 void SolidSystem::constraint_values(double t, double last_event, std::span<double> values) const {
@@ -102,8 +131,8 @@ const Tangent* SolidSystem::tangent() const {
 
 FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
     const ElementBlock::Rates rates = elements_.largest_rates(accepted);
-    const double more = interactions_.omega_squared(accepted, Trial::of(accepted), mass_);
-    return {std::sqrt(rates.omega_squared + more), rates.damping};
+    const double of_bonds = bond_omega_squared(accepted);
+    return {std::sqrt(rates.omega_squared + of_bonds), rates.damping, of_bonds};
 }
 
 void SolidSystem::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
@@ -145,23 +174,16 @@ void SolidSystem::add_path_energies(const State& from, State& to) const {
 }
 
 std::vector<PointFields> SolidSystem::point_fields(const State& state, std::int32_t element) const {
-    const Place& place = place_[static_cast<std::size_t>(element)];
-    const auto block = static_cast<std::size_t>(place.block);
-    std::vector<PointFields> fields(static_cast<std::size_t>(elements_.blocks()[block]->n_sub_triangles()));
-    elements_.blocks()[block]->point_fields(static_cast<std::size_t>(place.local),
-                                            elements_.evaluation(block, state, Trial::of(state)), fields.data());
+    std::vector<PointFields> fields(static_cast<std::size_t>(elements_.n_sub_triangles()));
+    elements_.point_fields(element, state, fields.data());
     return fields;
 }
 
 std::vector<PointFields> SolidSystem::point_fields(const State& state) const {
-    const auto n_sub = static_cast<std::size_t>(elements_.blocks().front()->n_sub_triangles());
-    std::vector<PointFields> fields(place_.size() * n_sub);
-    for (std::size_t e = 0; e < place_.size(); ++e) {
-        const auto block = static_cast<std::size_t>(place_[e].block);
-        elements_.blocks()[block]->point_fields(static_cast<std::size_t>(place_[e].local),
-                                                elements_.evaluation(block, state, Trial::of(state)),
-                                                fields.data() + e * n_sub);
-    }
+    const auto n_sub = static_cast<std::size_t>(elements_.n_sub_triangles());
+    std::vector<PointFields> fields(n_elements_ * n_sub);
+    for (std::size_t e = 0; e < n_elements_; ++e)
+        elements_.point_fields(static_cast<std::int32_t>(e), state, fields.data() + e * n_sub);
     return fields;
 }
 

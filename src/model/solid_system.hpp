@@ -2,6 +2,7 @@
 // A solid as a semi-discrete system: element blocks, loads, boundaries, events  [FORMULATION 1].
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ public:
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
+    double bond_omega_squared(const State& accepted) const override {
+        return interactions_.omega_squared(accepted, Trial::of(accepted), mass_);
+    }
     /// Without follower pressures, whose stiffness is small beside that of elements.
     void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;
@@ -51,6 +55,21 @@ public:
     std::span<const std::unique_ptr<Event>> events() const override { return events_; }
 
     const ElementForces& elements() const { return elements_; }
+
+    /// What stands around a solid.
+    struct Surroundings {
+        std::vector<std::unique_ptr<ForceTerm>> terms;
+        ConstraintSet constraints;
+        std::vector<Damping::Block> damping;
+    };
+    /// Follows a mesh that has come apart, with an accepted state: a copy moves as its original did, and the mass of
+    /// both is that of their elements. A tangent made before is gone.
+    /// @param surroundings  made anew from the mesh; none: no copy has to do with them
+    void follow(const Parting& parting, std::optional<Surroundings> surroundings, State& accepted);
+    /// An interaction's part of an accepted state's history.
+    std::span<double> history_of(const Interaction& interaction, State& accepted) const {
+        return interactions_.part(interaction, accepted);
+    }
 
     /// An event that goes before the interactions' own looks at the state.
     void add_event(std::unique_ptr<Event> event) { events_.insert(events_.begin() + 1, std::move(event)); }
@@ -62,18 +81,14 @@ public:
 
 private:
     class Look;
-    struct Place {
-        std::int32_t block, local;  ///< of an element of the mesh
-    };
-
     ElementForces elements_;
-    std::vector<Place> place_;
+    std::size_t n_elements_;
     std::vector<std::unique_ptr<ForceTerm>> terms_;
     Interactions interactions_;
     ConstraintSet constraints_;
     Damping damping_;
     std::vector<double> initial_velocity_;
-    std::vector<double> mass_;
+    std::vector<double> mass_, own_mass_;  ///< own_mass_: scratch
     double smallest_edge_;
     std::vector<std::unique_ptr<Event>> events_;
     mutable std::vector<double> partial_;            ///< scratch of sums

@@ -40,7 +40,8 @@ public:
 
     void initial_memory(double* z, double* history) const override;
     void internal_weights(double* weights) const override;
-    void add_mass(std::span<double> mass) const override;
+    void add_mass(std::size_t local, std::span<double> mass) const override;
+    void renumber(const Mesh& mesh, std::span<const std::int32_t> locals) override;
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
     bool symmetric_tangent() const override {
@@ -96,6 +97,9 @@ private:
     template <bool given, bool update, bool viscous>
     GNEISS_FLATTEN std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
                                                   const LocalNodes& local) const;
+    /// Evaluation::beyond of a pack.
+    double beyond_watch(const TriangleKinematics<Element, Pack>& kinematics,
+                        const TriangleStress<Element, Law, Pack>& stress, std::size_t pack) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack::batch_bool_type& upright) const;
     /// Displacements or velocities as independent variables.
     static Nodal<Dual<n_dof, Pack>> independent(const Nodal<Pack>& values);
@@ -214,17 +218,28 @@ void TriangleBlock<Element, sampling, Law>::internal_weights(double* weights) co
 }
 
 template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::add_mass(std::span<double> mass) const {
-    for (std::size_t local = 0; local < n_elements(); ++local) {
-        const auto g = geometry_of(local);
-        const std::size_t pack = local / pack_width, lane = local % pack_width;
-        for (int s = 0; s < Element::n_sub; ++s) {
-            for (const int node : Element::sub_triangles[s]) {
-                const auto n = static_cast<std::size_t>(nodes_[pack * index_stride + node * pack_width + lane]);
-                mass[2 * n] += info_.density * g.of(s).volume / 3;
-                mass[2 * n + 1] += info_.density * g.of(s).volume / 3;
-            }
+void TriangleBlock<Element, sampling, Law>::add_mass(std::size_t local, std::span<double> mass) const {
+    const auto g = geometry_of(local);
+    const std::size_t pack = local / pack_width, lane = local % pack_width;
+    for (int s = 0; s < Element::n_sub; ++s) {
+        for (const int node : Element::sub_triangles[s]) {
+            const auto n = static_cast<std::size_t>(nodes_[pack * index_stride + node * pack_width + lane]);
+            mass[2 * n] += info_.density * g.of(s).volume / 3;
+            mass[2 * n + 1] += info_.density * g.of(s).volume / 3;
         }
+    }
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::renumber(const Mesh& mesh, std::span<const std::int32_t> locals) {
+    for (const std::int32_t which : locals) {
+        const auto local = static_cast<std::size_t>(which);
+        const std::int32_t* element_nodes = mesh.element(static_cast<std::size_t>(info_.elements[local]));
+        // lanes behind the last element repeat it
+        const std::size_t end = local + 1 == n_elements() ? n_packs() * pack_width : local + 1;
+        for (std::size_t slot = local; slot < end; ++slot)
+            for (int node = 0; node < Element::n_nodes; ++node)
+                nodes_[slot / pack_width * index_stride + node * pack_width + slot % pack_width] = element_nodes[node];
     }
 }
 

@@ -11,6 +11,21 @@
 
 namespace gneiss {
 
+template <class Element, Sampling sampling, class Law>
+double TriangleBlock<Element, sampling, Law>::beyond_watch(const TriangleKinematics<Element, Pack>& kinematics,
+                                                           const TriangleStress<Element, Law, Pack>& stress,
+                                                           std::size_t pack) const {
+    Pack largest(0.0);
+    for (int s = 0; s < Element::n_sub; ++s)
+        largest = xsimd::max(largest, watch_.index(cauchy_stress(kinematics.point[s], stress.point[s], stress.q)));
+    const Pack allowed = Pack::load_aligned(watch_.factor_squared.data() + pack * pack_width);
+    const auto beyond = largest > allowed;
+    if (!any_lane(beyond)) return 0;
+    int bits = 0;
+    for (std::size_t lane = 0; lane < pack_width; ++lane) bits |= static_cast<int>(beyond.get(lane)) << lane;
+    return bits;
+}
+
 // ---- forces
 // ----------------------------------------------------------------------------------------------------------
 
@@ -41,6 +56,9 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
         for (std::size_t i = 0; i < n; ++i)
             stress[i] =
                 triangle_stress<Element, given>(law_, kinematics[i], geometry(begin + i), load_memory(at, begin + i));
+        if (at.beyond != nullptr)
+            for (std::size_t i = 0; i < n; ++i)
+                at.beyond[begin + i] = beyond_watch(kinematics[i], stress[i], begin + i);
         for (std::size_t i = 0; i < n; ++i) {
             const PackGeometry g = geometry(begin + i);
             Nodal<Pack> f;

@@ -55,6 +55,7 @@ struct StoredEnergies {
 struct FrequencyBound {
     double omega = 0;         ///< upper bound of the natural frequencies, rad/s
     double damping_rate = 0;  ///< upper bound of the eigenvalues of M^-1 (-df/dv), 1/s: viscous stress, not C
+    double of_bonds = 0;      ///< what joints and contact contribute to omega^2, (rad/s)^2
 };
 
 class SemiDiscrete {
@@ -107,6 +108,11 @@ public:
 
     /// From the tangents in the accepted state.
     virtual FrequencyBound frequency_bound(const State& accepted) const = 0;
+    /// FrequencyBound::of_bonds alone, which is what changes where a mesh comes apart. Far cheaper than the whole.
+    virtual double bond_omega_squared(const State& accepted) const {
+        (void)accepted;
+        return 0;
+    }
     /// A diagonal matrix D with x.K x <= x.D x for K = -df/du at a trial: fictitious masses of pseudo-time. Where
     /// nothing better is known it is the mass times the square of the largest frequency of the accepted state.
     /// @param[out] bound  overwritten, N/m, shape (n_dof)

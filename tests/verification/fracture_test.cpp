@@ -39,8 +39,8 @@ test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula
     fracture.penalty = 50;
     return test::make_solid(std::move(mesh), what, [&](SolidSystem::Parts& parts) {
         std::vector<std::string> warnings;
-        parts.interactions.push_back(
-            make_cohesion(opened, edges, parts.blocks, what.materials, what.solid, fracture, warnings));
+        const auto properties = edge_properties(opened, edges, parts.blocks, what.materials, fracture, warnings);
+        parts.interactions.push_back(make_cohesion(opened, edges, properties, method, what.solid.thickness));
         EXPECT_TRUE(warnings.empty()) << warnings[0];
     });
 }

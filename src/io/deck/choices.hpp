@@ -156,8 +156,10 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
 }};
 
-inline constexpr std::array<Choice<FractureOptions::Method>, 3> fracture_methods{{
+inline constexpr std::array<Choice<FractureOptions::Method>, 4> fracture_methods{{
     {"none", FractureOptions::Method::none, "elements stay together"},
+    {"extrinsic", FractureOptions::Method::extrinsic,
+     "sides open where their traction reaches the strength and soften from there: no compliance before"},
     {"intrinsic", FractureOptions::Method::intrinsic,
      "joints on every edge from the start, elastic up to the strength, then one damage law in mixed mode"},
     {"y_code", FractureOptions::Method::y_code, "the same with the joint of Y-code, which dissipates 16 % too much"},

@@ -51,7 +51,7 @@ const Section<StrengthOptions>& strength_section() {
 
 const Section<FractureOptions>& fracture_section() {
     using F = FractureOptions;
-    const std::vector<Condition> jointed{{"method", {"intrinsic", "y_code"}}};
+    const std::vector<Condition> jointed{{"method", {"extrinsic", "intrinsic", "y_code"}}};
     static const Section<F> section{
         {choice("method", &F::method, fracture_methods, {.meaning = "how edges crack"}),
          number("penalty", &F::penalty,

@@ -37,22 +37,25 @@ vtkNew<vtkPoints> points_of(const FieldMesh& mesh) {
     return points;
 }
 
-vtkNew<vtkCellArray> cells_of(const FieldMesh& mesh) {
-    const auto n_points = static_cast<std::int64_t>(mesh.points.size());
+template <std::size_t n>
+vtkNew<vtkCellArray> cells_of(std::span<const std::array<std::int32_t, n>> numbers, std::size_t n_given,
+                              const char* cell) {
+    const auto n_points = static_cast<std::int64_t>(n_given);
     vtkNew<vtkTypeInt32Array> connectivity;
-    connectivity->SetNumberOfValues(static_cast<vtkIdType>(3 * mesh.triangles.size()));
+    connectivity->SetNumberOfValues(static_cast<vtkIdType>(n * numbers.size()));
     vtkIdType k = 0;
-    for (std::size_t e = 0; e < mesh.triangles.size(); ++e) {
-        for (const std::int32_t point : mesh.triangles[e]) {
+    for (std::size_t e = 0; e < numbers.size(); ++e) {
+        for (const std::int32_t point : numbers[e]) {
             if (!(point >= 0 && point < n_points))
                 throw std::invalid_argument(
-                    fmt::format("VtuWriter: triangle {} names point {}, allowed: 0 to {}", e, point, n_points - 1));
+                    fmt::format("VtuWriter: {} {} names point {}, allowed: 0 to {}", cell, e, point, n_points - 1));
             connectivity->SetValue(k++, point);
         }
     }
     vtkNew<vtkTypeInt32Array> offsets;
-    offsets->SetNumberOfValues(static_cast<vtkIdType>(mesh.triangles.size() + 1));
-    for (vtkIdType e = 0; e < offsets->GetNumberOfValues(); ++e) offsets->SetValue(e, static_cast<std::int32_t>(3 * e));
+    offsets->SetNumberOfValues(static_cast<vtkIdType>(numbers.size() + 1));
+    for (vtkIdType e = 0; e < offsets->GetNumberOfValues(); ++e)
+        offsets->SetValue(e, static_cast<std::int32_t>(n * static_cast<std::size_t>(e)));
 
     vtkNew<vtkCellArray> cells;
     cells->SetData(offsets, connectivity);
@@ -131,11 +134,16 @@ struct VtuWriter::Grid {
 
 VtuWriter::VtuWriter(const FieldMesh& mesh) : grid_(std::make_unique<Grid>()) {
     grid_->data->SetPoints(points_of(mesh));
-    grid_->data->SetCells(VTK_TRIANGLE, cells_of(mesh));
+    const bool of_lines = mesh.triangles.empty();
+    if (of_lines)
+        grid_->data->SetCells(VTK_LINE, cells_of(mesh.lines, mesh.points.size(), "line"));
+    else
+        grid_->data->SetCells(VTK_TRIANGLE, cells_of(mesh.triangles, mesh.points.size(), "triangle"));
+    const std::size_t n_cells = of_lines ? mesh.lines.size() : mesh.triangles.size();
     for (const IntegerArray& integers : mesh.integers) {
-        if (integers.values.size() != mesh.triangles.size())
-            throw std::invalid_argument(fmt::format("field {}: {} numbers for {} triangles", integers.name,
-                                                    integers.values.size(), mesh.triangles.size()));
+        if (integers.values.size() != n_cells)
+            throw std::invalid_argument(fmt::format("field {}: {} numbers for {} {}", integers.name,
+                                                    integers.values.size(), n_cells, of_lines ? "lines" : "triangles"));
         vtkNew<vtkTypeInt32Array> array;
         array->SetName(integers.name.c_str());
         array->SetNumberOfValues(static_cast<vtkIdType>(integers.values.size()));

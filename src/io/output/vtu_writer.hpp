@@ -1,5 +1,5 @@
 #pragma once
-// One picture of the fields on a mesh of triangles, as a compressed .vtu that ParaView opens.
+// One picture of the fields on a mesh of triangles or of lines, as a compressed .vtu that ParaView opens.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace gneiss {
 
-/// A named array of numbers at points or in triangles. Nothing is copied: `values` must live until the write is over.
+/// A named array of numbers at points or in cells, triangles or lines. Nothing is copied: `values` must live until the
+/// write is over.
 struct FieldArray {
     std::string name;                               ///< "displacement", "cauchy_stress"; unique among its kind
     std::span<const double> values;                 ///< shape (n, n_components), row after row
@@ -19,10 +20,10 @@ struct FieldArray {
     std::vector<std::string> component_names = {};  ///< none, or one for each component: {"xx", "yy", "xy"}
 };
 
-/// A named whole number for each triangle that stays the same: composite, region.
+/// A named whole number for each cell that stays the same: composite, region.
 struct IntegerArray {
     std::string name;
-    std::span<const std::int32_t> values;  ///< shape (n_triangles)
+    std::span<const std::int32_t> values;  ///< shape (n_cells)
 };
 
 /// Where the fields live. A composite triangle is given as its four sub-triangles, one after the other, so that what
@@ -32,18 +33,19 @@ struct FieldMesh {
     std::span<const std::array<std::int32_t, 3>>
         triangles;  ///< point numbers from 0, counter-clockwise, (n_triangles, 3)
     std::vector<IntegerArray> integers = {};
+    std::span<const std::array<std::int32_t, 2>> lines = {};  ///< in place of triangles, shape (n_lines, 2)
 };
 
 /// All fields at one time.
 struct Fields {
     std::vector<FieldArray> points;  ///< arrays with n_points rows
-    std::vector<FieldArray> cells;   ///< arrays with n_triangles rows
+    std::vector<FieldArray> cells;   ///< arrays with n_cells rows
 };
 
 /// Writes any number of .vtu files on one mesh: VTK's XML format, appended raw binary, zlib. The mesh is copied once.
 class VtuWriter {
 public:
-    /// @throws std::invalid_argument if a triangle names a point that is not there, or an array has the wrong length
+    /// @throws std::invalid_argument if a cell names a point that is not there, or an array has the wrong length
     explicit VtuWriter(const FieldMesh& mesh);
     ~VtuWriter();
     VtuWriter(VtuWriter&&) noexcept;

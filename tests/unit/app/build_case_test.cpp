@@ -23,7 +23,7 @@ std::string error_of(const CaseOptions& options) {
 
 TEST(BuildCase, Sound_HasEverything) {
     const Case built = build_case(square_options());
-    EXPECT_EQ(built.mesh.n_elements(), 8u);
+    EXPECT_EQ(built.mesh->n_elements(), 8u);
     EXPECT_EQ(built.system->layout().n_dof, 50u);
     EXPECT_EQ(built.integrator->name(), "central_difference");
     EXPECT_TRUE(built.probes.empty());

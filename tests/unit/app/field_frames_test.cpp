@@ -27,10 +27,10 @@ protected:
     vtkUnstructuredGrid* frame(const CaseOptions& options, const std::array<double, 4>& h) {
         built = build_case(options);
         State state = built.system->initial_state();
-        displace(state, built.mesh, h);
+        displace(state, *built.mesh, h);
         for (std::size_t i = 0; i < state.v.size(); ++i) state.v[i] = 10 * state.u[i];
         state.t = 0.25;
-        FieldFrames(folder, built.mesh, {}).write(*built.system, state, 17);
+        FieldFrames(folder, *built.mesh, {}).write(*built.system, state, 17);
         reader->SetFileName((folder / "fields_000000.vtu").c_str());
         reader->Update();
         return reader->GetOutput();

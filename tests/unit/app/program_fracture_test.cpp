@@ -47,7 +47,8 @@ protected:
 
 TEST_F(ProgramFracture, PulledApart_PaysForItsCracks) {
     for (const char* element : {"solid.element=cst", "solid.element=compt"})
-        for (const char* method : {"fracture.method=intrinsic", "fracture.method=y_code"}) {
+        for (const char* method :
+             {"fracture.method=intrinsic", "fracture.method=y_code", "fracture.method=extrinsic"}) {
             const nlohmann::json found = energies({"--set", element, method}, "out");
             EXPECT_GT(found["dissipated_fracture"], 0.01) << element << method;
             // waves that crack edges at steps of 0.8 of the critical one: kinks of the law within steps
@@ -56,12 +57,23 @@ TEST_F(ProgramFracture, PulledApart_PaysForItsCracks) {
 }
 
 TEST_F(ProgramFracture, ThreadsAndRestarts_DoNotMoveABit) {
-    energies({"--threads", "1"}, "one");
-    energies({"--threads", "2"}, "two");
-    EXPECT_EQ(contents("one/history.csv"), contents("two/history.csv"));
-    energies({"--threads", "1", "--set", "run.t_end=5e-5"}, "parts");
-    energies({"--threads", "1", "--restart", "parts/checkpoint.h5"}, "parts");
-    EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
+    for (const std::string method : {"fracture.method=intrinsic", "fracture.method=extrinsic"}) {
+        energies({"--threads", "1", "--set", method}, "one");
+        energies({"--threads", "2", "--set", method}, "two");
+        EXPECT_EQ(contents("one/history.csv"), contents("two/history.csv")) << method;
+        energies({"--threads", "1", "--set", method, "run.t_end=5e-5"}, "parts");
+        energies({"--threads", "1", "--restart", "parts/checkpoint.h5", "--set", method}, "parts");
+        EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv")) << method;
+    }
+}
+
+TEST_F(ProgramFracture, Extrinsic_BeforeAnythingBreaks_IsTheWholeSolidToTheBit) {
+    const std::string strong = "material.0.strength.tensile=1e9", very = "material.0.strength.cohesion=1e9";
+    energies({"--set", "fracture.method=extrinsic", strong, very, "material.0.strength.G_I=1e6",
+              "material.0.strength.G_II=1e6"},
+             "watched");
+    energies({"--set", "fracture={ method = \"none\" }"}, "whole");
+    EXPECT_EQ(contents("watched/probes.csv"), contents("whole/probes.csv"));
 }
 
 TEST_F(ProgramFracture, Scatter_AnotherSeedIsAnotherSample) {

@@ -47,7 +47,7 @@ TEST(HistoryTable, Row_FitsTheColumns) {
 
 TEST(ProbeTable, Columns_RadialOnesOnlyWithACentre) {
     const Case built = build_case(square_options());
-    const ProbeTable probes(built.mesh, {{"a", {0.5, 0.5}, {}}, {"b", {0.5, 0.5}, std::array{0.0, 0.0}}});
+    const ProbeTable probes(*built.mesh, {{"a", {0.5, 0.5}, {}}, {"b", {0.5, 0.5}, std::array{0.0, 0.0}}});
     EXPECT_THAT(names_of(probes.columns()),
                 testing::ElementsAre("t", "a.u_x", "a.u_y", "a.v_x", "a.v_y", "a.sigma_xx", "a.sigma_yy", "a.sigma_xy",
                                      "b.u_x", "b.u_y", "b.v_x", "b.v_y", "b.sigma_xx", "b.sigma_yy", "b.sigma_xy",
@@ -60,9 +60,9 @@ TEST(ProbeTable, Columns_RadialOnesOnlyWithACentre) {
 TEST(ProbeTable, LinearField_IsReproducedAnywhere) {
     const Case built = build_case(square_options());
     State state = built.system->initial_state();
-    displace(state, built.mesh, {1e-3, 2e-3, -3e-3, 4e-3});
+    displace(state, *built.mesh, {1e-3, 2e-3, -3e-3, 4e-3});
     for (std::size_t i = 0; i < state.v.size(); ++i) state.v[i] = 100 * state.u[i];
-    const ProbeTable probes(built.mesh, {{"p", {0.31, 0.77}, {}}});
+    const ProbeTable probes(*built.mesh, {{"p", {0.31, 0.77}, {}}});
     const std::vector<double> row = probes.row(*built.system, state);
     const double u_x = 1e-3 * 0.31 + 2e-3 * 0.77, u_y = -3e-3 * 0.31 + 4e-3 * 0.77;
     EXPECT_NEAR(row[1], u_x, round_off);
@@ -74,11 +74,11 @@ TEST(ProbeTable, LinearField_IsReproducedAnywhere) {
 TEST(ProbeTable, RadialComponents_AreThoseOfTheTurnedFrame) {
     const Case built = build_case(square_options());
     State state = built.system->initial_state();
-    displace(state, built.mesh, {1e-3, 2e-3, 0.5e-3, -1e-3});
+    displace(state, *built.mesh, {1e-3, 2e-3, 0.5e-3, -1e-3});
     for (std::size_t i = 0; i < state.v.size(); ++i) state.v[i] = -10 * state.u[i];
     // r points from (0.6, 0.2) to (0.3, 0.6): (-3, 4)/5
     const double c = -0.6, s = 0.8;
-    const ProbeTable probes(built.mesh, {{"p", {0.3, 0.6}, std::array{0.6, 0.2}}});
+    const ProbeTable probes(*built.mesh, {{"p", {0.3, 0.6}, std::array{0.6, 0.2}}});
     const std::vector<double> row = probes.row(*built.system, state);
     EXPECT_NEAR(row[8], c * row[1] + s * row[2], round_off);
     EXPECT_NEAR(row[9], -s * row[1] + c * row[2], round_off);
@@ -101,7 +101,7 @@ TEST(ProbeTable, RadialComponents_AreThoseOfTheTurnedFrame) {
 TEST(ProbeTable, BadProbes_AreAllReported) {
     const Case built = build_case(square_options());
     try {
-        ProbeTable(built.mesh,
+        ProbeTable(*built.mesh,
                    {{"in", {0.5, 0.5}, {}}, {"out", {3, 0.5}, {}}, {"centre", {0.5, 0.5}, std::array{0.5, 0.5}}});
         FAIL() << "bad probes were taken";
     } catch (const InputError& error) {

@@ -1,0 +1,89 @@
+#include "app/crack_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gneiss {
+
+Fragments find_fragments(const Cracking& cracking, const State& state) {
+    const std::vector<bool> broken = cracking.broken_sides(state);
+    return find_fragments(
+        cracking.mesh(), cracking.inner(), [&](std::int32_t side) { return broken[static_cast<std::size_t>(side)]; },
+        cracking.elements(), state);
+}
+
+CrackFrames::CrackFrames(const std::filesystem::path& folder, const Cracking& cracking,
+                         std::optional<double> restart_time)
+    : cracking_(cracking),
+      series_(folder, {}, restart_time, "cracks"),
+      fragments_(folder / "fragments.csv",
+                 {{"t", "s"},
+                  {"fragment"},
+                  {"elements"},
+                  {"mass", "kg"},
+                  {"x", "m"},
+                  {"y", "m"},
+                  {"v_x", "m/s"},
+                  {"v_y", "m/s"}},
+                 restart_time) {}
+
+void CrackFrames::write(const State& state, std::size_t step) {
+    std::vector<std::array<double, 2>> points;
+    std::vector<std::array<std::int32_t, 2>> lines;
+    std::vector<std::int32_t> sides;
+    std::vector<double> displacement, damage, opening, slip, mode, fracture, friction, failed_at;
+    const auto& nodes = cracking_.mesh().nodes;
+    const auto history = cracking_.history(state);
+    const auto mean = [](const std::array<double, 2>& ends) { return 0.5 * (ends[0] + ends[1]); };
+    for (std::size_t joint = 0; joint < cracking_.joints().n_joints(); ++joint) {
+        const JointState edge = cracking_.joints().state_of(joint, state, history);
+        if (!(std::max(edge.damage[0], edge.damage[1]) > 0)) continue;
+        const auto first = static_cast<std::int32_t>(points.size());
+        lines.push_back({first, first + 1});
+        for (std::size_t end = 0; end < 2; ++end) {
+            const auto a = static_cast<std::size_t>(edge.nodes[end]), b = static_cast<std::size_t>(edge.nodes[end + 2]);
+            points.push_back(nodes[a]);
+            for (std::size_t c = 0; c < 2; ++c) displacement.push_back(0.5 * (state.u[2 * a + c] + state.u[2 * b + c]));
+        }
+        sides.push_back(edge.side);
+        damage.push_back(std::min(edge.damage[0], edge.damage[1]));
+        opening.push_back(mean(edge.opening));
+        slip.push_back(mean(edge.slip));
+        mode.push_back(edge.mode);
+        fracture.push_back(mean(edge.fracture));
+        friction.push_back(mean(edge.friction));
+        failed_at.push_back(edge.failed_at > 0 ? edge.failed_at : std::numeric_limits<double>::quiet_NaN());
+    }
+    FieldMesh mesh;
+    mesh.points = points;
+    mesh.lines = lines;
+    mesh.integers = {{"side", sides}};
+    series_.set_mesh(mesh);
+    series_.write(state.t, static_cast<std::int64_t>(step),
+                  {{{"displacement", displacement, 2}},
+                   {{"damage", damage},
+                    {"opening", opening},
+                    {"slip", slip},
+                    {"mode", mode},
+                    {"dissipated_fracture", fracture},
+                    {"dissipated_friction", friction},
+                    {"time_of_failure", failed_at}}});
+
+    if (fragments_.last_time() == state.t) return;
+    const Fragments fragments = find_fragments(cracking_, state);
+    for (std::size_t i = 0; i < fragments.all.size(); ++i) {
+        const Fragment& f = fragments.all[i];
+        const std::array<double, 8> row{state.t,
+                                        static_cast<double>(i),
+                                        static_cast<double>(f.n_elements),
+                                        f.mass,
+                                        f.centre.x,
+                                        f.centre.y,
+                                        f.velocity.x,
+                                        f.velocity.y};
+        fragments_.row(row);
+    }
+}
+
+}  // namespace gneiss

@@ -1,0 +1,88 @@
+#pragma once
+// Cracks that grow: sides of elements open where they reach their strength, and go over to contact when nothing holds
+// them any more  [FORMULATION 7].
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fracture/joints.hpp"
+#include "mesh/inner_sides.hpp"
+#include "model/solid_system.hpp"
+#include "system/event.hpp"
+
+namespace gneiss {
+
+/// Looks at every accepted state.
+///
+/// A side opens where the mean of the tractions on its two sides is beyond the envelope. Nodes around which elements
+/// have come apart are copied; the ends of joints between an original and its copies then get tractions with which
+/// every copy goes on with the acceleration that the node had, so that neither velocity nor acceleration jumps:
+///
+///   sum over ends at copy g of (+-) w t = m_g a - f_g,   a = sum f_g/sum m_g,
+///
+/// t nearest to the mean of the stresses on both sides, in the sense of least squares.
+class Cracking final : public Event {
+public:
+    struct Parts {
+        Mesh& mesh;
+        InnerSides& inner;  ///< of the mesh
+        SolidSystem& solid;
+        Joints& joints;  ///< one of the solid's interactions
+        /// Of the sub-edges of every inner side, one behind the other; empty: no side opens, joints are there from the
+        /// start.
+        std::vector<CohesionProperties<double>> properties = {};
+        /// Whether failed sides are handed to contact; otherwise their joints go on to press.
+        bool contact = false;
+        /// Loads, constraints and absorbing boundaries of the mesh as it is. Called when a node of a named place was
+        /// copied.
+        std::function<SolidSystem::Surroundings(const Mesh&)> surroundings = {};
+        bool loads_everywhere = false;  ///< body forces: any copy changes the surroundings
+    };
+    explicit Cracking(Parts parts) : parts_(std::move(parts)) {}
+
+    std::string name() const override { return "cracking"; }
+    std::optional<double> next_time(const State&) const override { return std::nullopt; }
+    EventOutcome apply(State&) override { return EventOutcome::none; }
+    bool watches() const override { return true; }
+    EventOutcome look(State& accepted) override;
+
+    const Joints& joints() const { return parts_.joints; }
+    const Mesh& mesh() const { return parts_.mesh; }
+    const InnerSides& inner() const { return parts_.inner; }
+    const ElementForces& elements() const { return parts_.solid.elements(); }
+    /// Inner sides that nothing holds any more: open without a joint, or all of their joints have failed. By number.
+    std::vector<bool> broken_sides(const State& state) const;
+    std::span<const double> history(const State& state) const;
+    std::size_t n_events() const { return n_events_; }
+
+    /// What has come apart, in the order in which it did: enough to come to the same mesh again.
+    std::vector<double> save() const { return record_; }
+    /// Lets a mesh as it was at the start come apart as told, together with all that hangs on it.
+    /// @throws InputError if it does not fit the mesh
+    void replay(const std::vector<double>& record);
+
+private:
+    struct Change {
+        std::vector<std::int32_t> opened, failed;
+    };
+    std::vector<std::int32_t> sides_beyond(const State& state);
+    /// Mean of the stresses on both sides of a sub-edge, xx, yy, xy, Pa.
+    std::array<double, 3> mean_stress(const State& state, std::int32_t side, std::size_t part);
+    const std::array<double, 3>& stress(const State& state, const ElementSide& side, std::size_t part);
+    bool named(const std::vector<NodeCopy>& copies) const;
+    void part(const Change& change, State& state);
+    void wake_ends(State& state);
+
+    Parts parts_;
+    std::vector<double> record_;
+    std::size_t n_events_ = 0;
+    // scratch: stresses of elements already asked for in this look
+    std::vector<std::int64_t> seen_;
+    std::vector<std::array<double, 3>> stresses_;
+    std::int64_t look_ = 0;
+    std::vector<std::int32_t> candidates_;
+    std::vector<double> force_;
+};
+
+}  // namespace gneiss

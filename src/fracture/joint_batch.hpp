@@ -1,0 +1,407 @@
+#pragma once
+// Joints side by side in packs: the Interaction behind joints.hpp, for one law. Included only by joints.cpp.
+//
+// History of a pack: members of the law's history at both ends, then when the joints failed and in which mode; of
+// extrinsic ones also by how much each end is stronger than its properties say. Packs follow each other, so that joints
+// are appended. A time of failure below zero says that contact has taken over.
+
+#include <algorithm>
+#include <cmath>
+#include <xsimd/xsimd.hpp>
+
+#include "base/dual.hpp"
+#include "base/pack.hpp"
+#include "base/parallel.hpp"
+#include "fracture/cohesion_law.hpp"
+#include "fracture/envelope.hpp"
+#include "fracture/joint_kernel.hpp"
+#include "fracture/joints.hpp"
+
+namespace gneiss {
+
+/// Lanes behind the last joint repeat it with no weight.
+template <class Law, bool extrinsic>
+class JointBatch final : public Joints {
+    using History = typename Law::template History<Pack>;
+    using Packs = std::vector<double, xsimd::aligned_allocator<double>>;
+    static constexpr std::size_t n_members = History::members.size(),
+                                 n_properties = CohesionProperties<double>::members.size(), n_dof = 2 * joint_nodes,
+                                 failure_row = joint_points * n_members, mode_row = failure_row + 1,
+                                 factor_row = mode_row + 1, history_rows = factor_row + (extrinsic ? joint_points : 0);
+    /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
+    static constexpr double far_slip = 0.25;
+
+public:
+    /// @param inner, later  of extrinsic joints: those that come into being where sides open
+    JointBatch(const Mesh& mesh, const std::vector<Joint>& joints, double thickness, const InnerSides* inner = nullptr,
+               std::vector<CohesionProperties<double>> later = {});
+
+    std::string name() const override { return "joints"; }
+    std::size_t n_joints() const override { return n_joints_; }
+    std::size_t part_of_side(std::size_t joint) const override {
+        return joint > 0 && sides_[joint - 1] == sides_[joint] ? 1 : 0;
+    }
+    std::size_t n_history() const override { return n_packs() * history_rows * pack_width; }
+    void initial_history(std::span<double> history) const override;
+    void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
+                   std::span<double> updated) const override;
+    void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
+                PathEnergies& energies) override;
+    std::vector<std::array<std::int32_t, 2>> couplings() const override;
+    bool symmetric() const override { return false; }  // friction, and damage in mixed mode
+    void stiffness(const Trial& trial, std::span<const double> history,
+                   std::span<ForceTerm::Stiffness> df_du) const override;
+    double omega_squared(const Trial& trial, std::span<const double> history,
+                         std::span<const double> lumped_mass) const override;
+    void add_stiffness_bound(const Trial& trial, std::span<const double> history,
+                             std::span<double> bound) const override;
+    void add_stored(const Trial& accepted, std::span<const double> history, StoredEnergies& energies) const override;
+    void add_dissipated(std::span<const double> from, std::span<const double> to,
+                        PathEnergies& energies) const override;
+
+    double cracked_length(std::span<const double> history) const override;
+    std::pair<std::int32_t, bool> failure(std::size_t joint, std::span<const double> history) const override {
+        return {sides_[joint], history[entry(joint, failure_row)] != 0};
+    }
+    JointState state_of(std::size_t joint, const State& state, std::span<const double> history) const override;
+    std::vector<std::int32_t> sides_let_go(const State& accepted, std::span<const double> history) const override;
+    double hand_over(std::span<const std::int32_t> sides, const State& accepted,
+                     std::span<double> history) const override;
+    std::vector<WaitingEnd> waiting(const State& accepted, std::span<const double> history) const override;
+    double wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const override;
+
+private:
+    std::size_t n_packs() const { return padded(n_joints_) / pack_width; }
+    static Pack load(const Packs& values, std::size_t row) { return Pack::load_aligned(&values[row * pack_width]); }
+    static Pack row(std::span<const double> history, std::size_t pack, std::size_t which) {
+        return Pack::load_unaligned(&history[(pack * history_rows + which) * pack_width]);
+    }
+    /// Where a joint's entry of a row stands.
+    static std::size_t entry(std::size_t joint, std::size_t which) {
+        return (joint / pack_width * history_rows + which) * pack_width + joint % pack_width;
+    }
+    Vec2<Pack> edge(std::size_t pack) const { return {load(edges_, 2 * pack), load(edges_, 2 * pack + 1)}; }
+    double length(std::size_t joint) const {
+        const std::size_t x = 2 * (joint / pack_width) * pack_width + joint % pack_width;
+        return std::hypot(edges_[x], edges_[x + pack_width]);
+    }
+    CohesionProperties<Pack> of(std::span<const double> history, std::size_t pack, std::size_t point) const {
+        CohesionProperties<Pack> p;
+        for (std::size_t i = 0; i < n_properties; ++i)
+            p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
+        if constexpr (extrinsic) {
+            const Pack factor = row(history, pack, factor_row + point);
+            p.tensile_strength *= factor;
+            p.cohesion *= factor;
+        }
+        return p;
+    }
+    /// Area that the traction at an end acts on, m2: none where contact has taken over, or the end waits.
+    Pack weight(std::span<const double> history, std::size_t pack, const History& at) const {
+        Pack w = choose(row(history, pack, failure_row) < Pack(0.0), Pack(0.0), load(weights_, pack));
+        if constexpr (extrinsic) w = choose(at.lambda_max < Pack(1.0), Pack(0.0), w);
+        return w;
+    }
+    static History history_of(std::span<const double> history, std::size_t pack, std::size_t point) {
+        History h;
+        for (std::size_t i = 0; i < n_members; ++i) h.*History::members[i] = row(history, pack, point * n_members + i);
+        return h;
+    }
+    static void store(const Pack& value, std::span<double> history, std::size_t pack, std::size_t which) {
+        value.store_unaligned(&history[(pack * history_rows + which) * pack_width]);
+    }
+    std::array<Vec2<Pack>, joint_nodes> gather(std::span<const double> u, std::size_t pack) const {
+        std::array<Vec2<Pack>, joint_nodes> at;
+        for (std::size_t k = 0; k < joint_nodes; ++k)
+            gather_pairs(u.data(), &nodes_[(pack * joint_nodes + k) * pack_width], at[k].x, at[k].y);
+        return at;
+    }
+    JointMotion<double> motion_of(std::size_t joint, std::span<const double> u) const;
+    /// Stiffness of the springs at an end against the displacement of one node, N/m: in shear that of friction stands
+    /// beside the cohesive one.
+    double spring(std::size_t joint) const {
+        const std::size_t pack = joint / pack_width, lane = joint % pack_width;
+        const double* p = &properties_[n_properties * pack * pack_width + lane];
+        const bool friction = p[2 * pack_width] > 0 || p[3 * pack_width] > 0;
+        return p[6 * pack_width] * weights_[pack * pack_width + lane] * (friction ? 2 : 1);
+    }
+    /// visit(node, stiffness) for every node of every joint that holds or presses still.
+    template <class Visit>
+    void for_each_spring(std::span<const double> history, Visit visit) const {
+        for (std::size_t joint = 0; joint < n_joints_; ++joint) {
+            if (history[entry(joint, failure_row)] < 0) continue;
+            for (std::size_t k = 0; k < joint_nodes; ++k) visit(node(joint, k), spring(joint));
+        }
+    }
+    PairNumber& node_number(std::size_t joint, std::size_t k) {
+        return nodes_[(joint / pack_width * joint_nodes + k) * pack_width + joint % pack_width];
+    }
+    std::int32_t node(std::size_t joint, std::size_t k) const {
+        return nodes_[(joint / pack_width * joint_nodes + k) * pack_width + joint % pack_width].value;
+    }
+    void append(const Mesh& mesh, const Joint& joint);
+    void fill_last_pack();
+    void plan_sums();
+
+    double thickness_;
+    std::size_t n_joints_ = 0;
+    std::vector<PairNumber> nodes_;          ///< shape (packs, joint_nodes, lanes)
+    Packs edges_;                            ///< a0 to a1 in the reference shape, m, shape (packs, 2, lanes)
+    Packs weights_;                          ///< m2, shape (packs, lanes)
+    Packs properties_;                       ///< shape (packs, n_properties, lanes)
+    std::vector<std::int32_t> sides_;        ///< inner side of each joint
+    std::vector<std::size_t> last_of_side_;  ///< joint with the highest number, shape (sides); `nowhere`: none
+    static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+    const InnerSides* inner_;
+    std::vector<CohesionProperties<double>> later_;
+    // which forces meet at a node, so that they are summed in one order
+    std::vector<std::int32_t> touched_;            ///< nodes, ascending
+    std::vector<std::size_t> first_;               ///< in slots_, shape (touched + 1)
+    std::vector<std::size_t> slots_;               ///< of forces_: where x stands; y is pack_width behind
+    mutable Packs forces_;                         ///< scratch, N, shape (packs, n_dof, lanes)
+    mutable std::vector<double> bound_, partial_;  ///< scratch
+};
+
+template <class Law, bool extrinsic>
+JointBatch<Law, extrinsic>::JointBatch(const Mesh& mesh, const std::vector<Joint>& joints, double thickness,
+                                       const InnerSides* inner, std::vector<CohesionProperties<double>> later)
+    : thickness_(thickness), inner_(inner), later_(std::move(later)) {
+    for (const Joint& joint : joints) append(mesh, joint);
+    fill_last_pack();
+    plan_sums();
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::append(const Mesh& mesh, const Joint& joint) {
+    const std::size_t pack = n_joints_ / pack_width, lane = n_joints_ % pack_width;
+    if (lane == 0) {
+        nodes_.resize((pack + 1) * joint_nodes * pack_width);
+        edges_.resize((pack + 1) * 2 * pack_width);
+        weights_.resize((pack + 1) * pack_width);
+        properties_.resize((pack + 1) * n_properties * pack_width);
+        forces_.resize((pack + 1) * n_dof * pack_width);
+    }
+    ++n_joints_;
+    for (std::size_t k = 0; k < joint_nodes; ++k) node_number(n_joints_ - 1, k) = {joint.nodes[k]};
+    const auto& start = mesh.nodes[static_cast<std::size_t>(joint.nodes[0])];
+    const auto& end = mesh.nodes[static_cast<std::size_t>(joint.nodes[1])];
+    const double dx = end[0] - start[0], dy = end[1] - start[1];
+    edges_[2 * pack * pack_width + lane] = dx;
+    edges_[(2 * pack + 1) * pack_width + lane] = dy;
+    weights_[pack * pack_width + lane] = 0.5 * thickness_ * std::hypot(dx, dy);
+    for (std::size_t i = 0; i < n_properties; ++i)
+        properties_[(n_properties * pack + i) * pack_width + lane] =
+            joint.properties.*CohesionProperties<double>::members[i];
+    sides_.push_back(joint.side);
+    const auto side = static_cast<std::size_t>(joint.side);
+    if (side >= last_of_side_.size()) last_of_side_.resize(side + 1, nowhere);
+    last_of_side_[side] = n_joints_ - 1;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::fill_last_pack() {
+    if (n_joints_ == 0) return;
+    const auto repeat = [&](auto& values, std::size_t n_rows) {
+        const std::size_t pack = (n_joints_ - 1) / pack_width, lane = (n_joints_ - 1) % pack_width;
+        for (std::size_t r = 0; r < n_rows; ++r)
+            for (std::size_t k = lane + 1; k < pack_width; ++k)
+                values[(pack * n_rows + r) * pack_width + k] = values[(pack * n_rows + r) * pack_width + lane];
+    };
+    repeat(nodes_, joint_nodes);
+    repeat(edges_, 2);
+    repeat(properties_, n_properties);
+    for (std::size_t slot = n_joints_; slot < n_packs() * pack_width; ++slot) weights_[slot] = 0;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::plan_sums() {
+    std::int32_t largest = -1;
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) largest = std::max(largest, node(joint, k));
+    std::vector<std::size_t> next(static_cast<std::size_t>(largest + 2), 0);
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) ++next[static_cast<std::size_t>(node(joint, k)) + 1];
+    touched_.clear();
+    first_.clear();
+    for (std::size_t n = 0; n + 1 < next.size(); ++n) {
+        if (next[n + 1] > 0) {
+            touched_.push_back(static_cast<std::int32_t>(n));
+            first_.push_back(next[n]);
+        }
+        next[n + 1] += next[n];
+    }
+    slots_.resize(next.back());
+    first_.push_back(slots_.size());
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k)
+            slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
+                (joint / pack_width * n_dof + 2 * k) * pack_width + joint % pack_width;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) const {
+    std::ranges::fill(history, 0.0);
+    if constexpr (extrinsic)
+        for (std::size_t pack = 0; pack < n_packs(); ++pack)
+            for (std::size_t i = 0; i < joint_points; ++i) store(Pack(1.0), history, pack, factor_row + i);
+}
+
+// ---- forces --------------------------------------------------------------------------------------------------------
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
+                                           std::span<double> updated) const {
+    const auto n = static_cast<std::ptrdiff_t>(n_packs());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t p = 0; p < n; ++p) {
+        const auto pack = static_cast<std::size_t>(p);
+        const auto motion = joint_motion(edge(pack), gather(trial.u, pack));
+        std::array<Traction<Pack>, joint_points> tractions;
+        Pack damage(1.0), apart(0.0), along(0.0);
+        for (std::size_t i = 0; i < joint_points; ++i) {
+            const CohesionProperties<Pack> law = of(history, pack, i);
+            const History before = history_of(history, pack, i);
+            const Pack w = weight(history, pack, before);
+            tractions[i] = Law::traction(law, before, motion.opening[i], motion.slip[i]);
+            tractions[i].normal *= w;
+            tractions[i].shear *= w;
+            if (updated.empty()) continue;
+            History after = Law::advance(law, before, motion.opening[i], motion.slip[i]);
+            if constexpr (extrinsic) after = choose_history(w > Pack(0.0), after, before);
+            for (std::size_t k = 0; k < n_members; ++k)
+                store(after.*History::members[k], updated, pack, i * n_members + k);
+            damage = xsimd::min(damage, after.damage);
+            const Pack opening = positive_part(motion.opening[i]);
+            apart += opening * opening;
+            along += motion.slip[i] * motion.slip[i];
+            if constexpr (extrinsic) store(row(history, pack, factor_row + i), updated, pack, factor_row + i);
+        }
+        if (!updated.empty()) {
+            const Pack failed = row(history, pack, failure_row);
+            const auto fails = (failed == Pack(0.0)) && (damage >= Pack(1.0));
+            store(choose(fails, Pack(trial.t), failed), updated, pack, failure_row);
+            const Pack both = apart + along;
+            store(choose(fails, Pack(apart / choose(both > Pack(0.0), both, Pack(1.0))), row(history, pack, mode_row)),
+                  updated, pack, mode_row);
+        }
+        const auto forces = joint_forces(motion, Pack(1.0), tractions);
+        double* to = &forces_[pack * n_dof * pack_width];
+        for (std::size_t k = 0; k < joint_nodes; ++k) {
+            forces[k].x.store_aligned(to + 2 * k * pack_width);
+            forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
+        }
+    }
+    parallel_ranges(touched_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            double x = 0, y = 0;
+            for (std::size_t s = first_[i]; s < first_[i + 1]; ++s) {
+                x += forces_[slots_[s]];
+                y += forces_[slots_[s] + pack_width];
+            }
+            f[2 * static_cast<std::size_t>(touched_[i])] += x;
+            f[2 * static_cast<std::size_t>(touched_[i]) + 1] += y;
+        }
+    });
+}
+
+template <class Law, bool extrinsic>
+std::vector<std::array<std::int32_t, 2>> JointBatch<Law, extrinsic>::couplings() const {
+    std::vector<std::array<std::int32_t, 2>> all;
+    all.reserve(n_joints_ * joint_nodes * joint_nodes);
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        for (std::size_t a = 0; a < joint_nodes; ++a)
+            for (std::size_t b = 0; b < joint_nodes; ++b) all.push_back({node(joint, a), node(joint, b)});
+    return all;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::stiffness(const Trial& trial, std::span<const double> history,
+                                           std::span<ForceTerm::Stiffness> df_du) const {
+    using D = Dual<n_dof, Pack>;
+    const auto n = static_cast<std::ptrdiff_t>(n_packs());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t p = 0; p < n; ++p) {
+        const auto pack = static_cast<std::size_t>(p);
+        const auto u = gather(trial.u, pack);
+        std::array<Vec2<D>, joint_nodes> moved;
+        for (int k = 0; k < static_cast<int>(joint_nodes); ++k) {
+            const auto node = static_cast<std::size_t>(k);
+            moved[node] = {D::variable(u[node].x, 2 * k), D::variable(u[node].y, 2 * k + 1)};
+        }
+        const auto motion = joint_motion(edge(pack), moved);
+        std::array<Traction<D>, joint_points> tractions;
+        for (std::size_t i = 0; i < joint_points; ++i) {
+            const History before = history_of(history, pack, i);
+            const Pack w = weight(history, pack, before);
+            tractions[i] = Law::traction(of(history, pack, i), before, motion.opening[i], motion.slip[i]);
+            tractions[i] = {w * tractions[i].normal, w * tractions[i].shear};
+        }
+        const auto f = joint_forces(motion, Pack(1.0), tractions);
+        for (std::size_t lane = 0; lane < pack_width && pack * pack_width + lane < n_joints_; ++lane) {
+            ForceTerm::Stiffness* to = &df_du[(pack * pack_width + lane) * joint_nodes * joint_nodes];
+            for (std::size_t a = 0; a < joint_nodes; ++a)
+                for (std::size_t b = 0; b < joint_nodes; ++b)
+                    *to++ = {f[a].x.derivative[2 * b].get(lane), f[a].x.derivative[2 * b + 1].get(lane),
+                             f[a].y.derivative[2 * b].get(lane), f[a].y.derivative[2 * b + 1].get(lane)};
+        }
+    }
+}
+
+template <class Law, bool extrinsic>
+double JointBatch<Law, extrinsic>::omega_squared(const Trial&, std::span<const double> history,
+                                                 std::span<const double> lumped_mass) const {
+    // sums of magnitudes along the rows of M^-1 K: each spring ties a node to one other
+    bound_.assign(lumped_mass.size() / 2, 0.0);
+    for_each_spring(history, [&](std::int32_t node, double k) { bound_[static_cast<std::size_t>(node)] += 2 * k; });
+    double largest = 0;
+    for (const std::int32_t node : touched_)
+        largest =
+            std::max(largest, bound_[static_cast<std::size_t>(node)] / lumped_mass[2 * static_cast<std::size_t>(node)]);
+    return largest;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_stiffness_bound(const Trial&, std::span<const double> history,
+                                                     std::span<double> bound) const {
+    for_each_spring(history, [&](std::int32_t node, double k) {
+        bound[2 * static_cast<std::size_t>(node)] += 2 * k;
+        bound[2 * static_cast<std::size_t>(node) + 1] += 2 * k;
+    });
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_stored(const Trial& accepted, std::span<const double> history,
+                                            StoredEnergies& energies) const {
+    energies.joints += ordered_sum(n_packs(), partial_, [&](std::size_t first, std::size_t last) {
+        Pack sum(0.0);
+        for (std::size_t pack = first; pack < last; ++pack) {
+            const auto motion = joint_motion(edge(pack), gather(accepted.u, pack));
+            for (std::size_t i = 0; i < joint_points; ++i) {
+                const History at = history_of(history, pack, i);
+                sum += weight(history, pack, at) *
+                       Law::stored_energy(of(history, pack, i), at, motion.opening[i], motion.slip[i]);
+            }
+        }
+        return xsimd::hadd(sum);
+    });
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_dissipated(std::span<const double> from, std::span<const double> to,
+                                                PathEnergies& energies) const {
+    const auto sum_of = [&](Pack History::*member) {
+        return ordered_sum(n_packs(), partial_, [&](std::size_t first, std::size_t last) {
+            Pack sum(0.0);
+            for (std::size_t pack = first; pack < last; ++pack)
+                for (std::size_t i = 0; i < joint_points; ++i) {
+                    const History before = history_of(from, pack, i);
+                    sum += weight(from, pack, before) * (history_of(to, pack, i).*member - before.*member);
+                }
+            return xsimd::hadd(sum);
+        });
+    };
+    energies.fracture += sum_of(&History::fracture);
+    energies.friction += sum_of(&History::friction);
+}
+
+}  // namespace gneiss

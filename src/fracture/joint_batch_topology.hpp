@@ -1,0 +1,173 @@
+#pragma once
+// How joints follow a mesh that comes apart, and what is told of one of them: the second half of joint_batch.hpp.
+
+#include "fracture/joint_batch.hpp"
+
+namespace gneiss {
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::follow(const Parting& parting, const State&, std::vector<double>& history,
+                                        PathEnergies&) {
+    if constexpr (extrinsic) {
+        // sides at the elements whose nodes have changed, once each
+        std::vector<std::int32_t> sides;
+        for (const std::int32_t e : parting.elements)
+            for (int side = 0; side < 3; ++side) {
+                const std::int32_t s = inner_->number({e, side});
+                if (s >= 0 && static_cast<std::size_t>(s) < last_of_side_.size() &&
+                    last_of_side_[static_cast<std::size_t>(s)] != nowhere)
+                    sides.push_back(s);
+            }
+        std::ranges::sort(sides);
+        sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+        const std::size_t per_side = parting.mesh.kind == ElementKind::cst ? 1 : 2;
+        const auto renamed = joint_edges(parting.mesh, *inner_, sides);
+        for (std::size_t i = 0; i < renamed.size(); ++i) {
+            const std::size_t joint =
+                last_of_side_[static_cast<std::size_t>(renamed[i].side)] + 1 - per_side + i % per_side;
+            for (std::size_t k = 0; k < joint_nodes; ++k) node_number(joint, k) = {renamed[i].nodes[k]};
+        }
+        const auto fresh = joint_edges(parting.mesh, *inner_, parting.opened);
+        for (std::size_t i = 0; i < fresh.size(); ++i)
+            append(parting.mesh,
+                   {fresh[i].nodes, later_[per_side * static_cast<std::size_t>(fresh[i].side) + i % per_side],
+                    fresh[i].side});
+        fill_last_pack();
+        plan_sums();
+        const std::size_t n_old = history.size();
+        history.resize(n_history(), 0.0);
+        for (std::size_t pack = n_old / (history_rows * pack_width); pack < n_packs(); ++pack)
+            for (std::size_t i = 0; i < joint_points; ++i) store(Pack(1.0), history, pack, factor_row + i);
+    } else {
+        (void)parting;
+        (void)history;
+    }
+}
+
+template <class Law, bool extrinsic>
+JointMotion<double> JointBatch<Law, extrinsic>::motion_of(std::size_t joint, std::span<const double> u) const {
+    const std::size_t x = 2 * (joint / pack_width) * pack_width + joint % pack_width;
+    std::array<Vec2<double>, joint_nodes> at;
+    for (std::size_t k = 0; k < joint_nodes; ++k) {
+        const auto i = 2 * static_cast<std::size_t>(node(joint, k));
+        at[k] = {u[i], u[i + 1]};
+    }
+    return joint_motion(Vec2<double>{edges_[x], edges_[x + pack_width]}, at);
+}
+
+template <class Law, bool extrinsic>
+JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& state,
+                                                std::span<const double> history) const {
+    JointState result{};
+    const auto motion = motion_of(joint, state.u);
+    const auto member = [&](Pack History::*which, std::size_t point) {
+        const auto found = std::ranges::find(History::members, which);
+        return history[entry(joint, point * n_members + static_cast<std::size_t>(found - History::members.begin()))];
+    };
+    for (std::size_t k = 0; k < joint_nodes; ++k) result.nodes[k] = node(joint, k);
+    result.side = sides_[joint];
+    result.length = length(joint);
+    double apart = 0, both = 0;
+    for (std::size_t i = 0; i < joint_points; ++i) {
+        result.opening[i] = motion.opening[i];
+        result.slip[i] = motion.slip[i];
+        result.damage[i] = member(&History::damage, i);
+        result.fracture[i] = member(&History::fracture, i);
+        result.friction[i] = member(&History::friction, i);
+        const double open = std::max(0.0, motion.opening[i]);
+        apart += open * open;
+        both += open * open + motion.slip[i] * motion.slip[i];
+    }
+    result.failed_at = std::abs(history[entry(joint, failure_row)]);
+    result.mode = result.failed_at > 0 ? history[entry(joint, mode_row)] : both > 0 ? apart / both : 0;
+    return result;
+}
+
+template <class Law, bool extrinsic>
+double JointBatch<Law, extrinsic>::cracked_length(std::span<const double> history) const {
+    double sum = 0;
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        if (history[entry(joint, failure_row)] != 0) sum += length(joint);
+    return sum;
+}
+
+template <class Law, bool extrinsic>
+std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& accepted,
+                                                                   std::span<const double> history) const {
+    const auto lets_go = [&](std::size_t joint) {
+        if (!(history[entry(joint, failure_row)] > 0)) return false;
+        const auto motion = motion_of(joint, accepted.u);
+        bool open = true, slid = true;
+        for (std::size_t i = 0; i < joint_points; ++i) {
+            open = open && motion.opening[i] >= 0;
+            slid = slid && std::abs(motion.slip[i]) > far_slip * motion.length;
+        }
+        return open || slid;
+    };
+    std::vector<std::int32_t> sides;
+    for (std::size_t joint = 0; joint < n_joints_; ++joint) {
+        const auto side = static_cast<std::size_t>(sides_[joint]);
+        if (last_of_side_[side] != joint || !lets_go(joint)) continue;
+        if (part_of_side(joint) == 0 || lets_go(joint - 1)) sides.push_back(sides_[joint]);
+    }
+    std::ranges::sort(sides);
+    return sides;
+}
+
+template <class Law, bool extrinsic>
+double JointBatch<Law, extrinsic>::hand_over(std::span<const std::int32_t> sides, const State& accepted,
+                                             std::span<double> history) const {
+    StoredEnergies before, after;
+    const Trial at = Trial::of(accepted);
+    add_stored(at, history, before);
+    for (const std::int32_t side : sides) {
+        const std::size_t last = last_of_side_[static_cast<std::size_t>(side)];
+        for (std::size_t joint = last; joint != nowhere && sides_[joint] == side; --joint) {
+            double& failed = history[entry(joint, failure_row)];
+            failed = -std::abs(failed);
+            if (joint == 0) break;
+        }
+    }
+    add_stored(at, history, after);
+    return before.joints - after.joints;
+}
+
+template <class Law, bool extrinsic>
+auto JointBatch<Law, extrinsic>::waiting(const State& accepted, std::span<const double> history) const
+    -> std::vector<WaitingEnd> {
+    std::vector<WaitingEnd> ends;
+    if constexpr (extrinsic) {
+        constexpr std::size_t lambda_row = 1;
+        static_assert(History::members[lambda_row] == &History::lambda_max);
+        for (std::size_t joint = 0; joint < n_joints_; ++joint)
+            for (std::size_t i = 0; i < joint_points; ++i) {
+                if (history[entry(joint, i * n_members + lambda_row)] >= 1 || node(joint, i) == node(joint, i + 2))
+                    continue;
+                const auto motion = motion_of(joint, accepted.u);
+                ends.push_back({joint, i, node(joint, i), node(joint, i + 2),
+                                weights_[joint / pack_width * pack_width + joint % pack_width], motion.normal,
+                                motion.along, sides_[joint]});
+            }
+    }
+    return ends;
+}
+
+template <class Law, bool extrinsic>
+double JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, double shear,
+                                        std::span<double> history) const {
+    if constexpr (extrinsic) {
+        CohesionProperties<double> p;
+        const std::size_t pack = end.joint / pack_width, lane = end.joint % pack_width;
+        for (std::size_t i = 0; i < n_properties; ++i)
+            p.*CohesionProperties<double>::members[i] = properties_[(n_properties * pack + i) * pack_width + lane];
+        const InsertedPoint<double> point = insert_point(p, normal, shear);
+        for (std::size_t k = 0; k < n_members; ++k)
+            history[entry(end.joint, end.end * n_members + k)] = point.history.*CohesionHistory<double>::members[k];
+        history[entry(end.joint, factor_row + end.end)] = point.strength_factor;
+        return end.weight * point.offset_energy;
+    } else {
+        return 0;
+    }
+}
+
+}  // namespace gneiss
