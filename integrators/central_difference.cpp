@@ -217,7 +217,7 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
         }
         ++steps_since_bound_;
         const bool seen = n_steps == most || !(next_.t < std::min(t_look, t_stop));
-        if (!unseen || seen || steps_since_bound_ >= bound_interval_) break;
+        if (!unseen || seen || steps_since_bound_ >= bound_interval_ || system.stirred(next_)) break;
         remember_special();
         kick_special(system, state);
         add_path_energies(system, state);

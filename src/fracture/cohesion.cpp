@@ -45,6 +45,7 @@ std::vector<JointEdge> open_all_sides(Mesh& mesh, InnerSides& inner) {
     std::vector<std::int32_t> all(inner.sides().size());
     std::iota(all.begin(), all.end(), 0);
     inner.open(all);
+    inner.renumber();
     return all_edges(mesh, inner);
 }
 
@@ -164,8 +165,8 @@ void watch_strength(std::span<const JointEdge> edges, std::span<const CohesionPr
                 least.tan_phi = std::min(least.tan_phi, found->second.tan_phi);
             }
         if (!std::isfinite(least.cohesion)) continue;  // no element of it touches another one
-        watch.tensile_strength = least.tensile_strength;
-        watch.cohesion = least.cohesion;
+        watch.per_tensile_strength = 1 / least.tensile_strength;
+        watch.per_cohesion = 1 / least.cohesion;
         watch.tan_phi = least.tan_phi;
         watch.factor_squared.assign(block->n_packs() * pack_width, std::numeric_limits<double>::infinity());
         for (std::size_t local = 0; local < block->n_elements(); ++local)

@@ -78,6 +78,14 @@ std::vector<bool> Cracking::broken_sides(const State& state) const {
     return broken;
 }
 
+bool Cracking::stirred(const State& state) const {
+    if (parts_.contact && parts_.joints.any_failed(history(state))) return true;
+    const ElementForces& elements = parts_.solid.elements();
+    for (std::size_t b = 0; b < elements.blocks().size(); ++b)
+        if (std::ranges::any_of(elements.beyond(b, state), [](double lanes) { return lanes != 0; })) return true;
+    return false;
+}
+
 EventOutcome Cracking::look(State& accepted) {
     ++look_;
     Change change;

@@ -45,6 +45,7 @@ public:
     std::optional<double> next_time(const State&) const override { return std::nullopt; }
     EventOutcome apply(State&) override { return EventOutcome::none; }
     bool watches() const override { return true; }
+    bool stirred(const State& state) const override;
     EventOutcome look(State& accepted) override;
 
     const Joints& joints() const { return parts_.joints; }

@@ -1,10 +1,12 @@
 #pragma once
 // Joints side by side in packs: the Interaction behind joints.hpp, for one law. Included only by joints.cpp.
 //
-// History of a pack: members of the law's history at both ends, then when the joints failed and in which mode; of
-// extrinsic ones also by how much each end is stronger than its properties say. Packs follow each other, so that joints
-// are appended. A time of failure below zero says that contact has taken over.
+// History of a pack: 1, or 0 while nothing has happened to any of its joints, and then all of it is zero; members of
+// the law's history at both ends, then when the joints failed and in which mode; of extrinsic ones also by how much
+// each end is stronger than its properties say. Packs follow each other, so that joints are appended. A time of failure
+// below zero says that contact has taken over.
 
+#include <omp.h>
 #include <algorithm>
 #include <cmath>
 #include <xsimd/xsimd.hpp>
@@ -26,7 +28,7 @@ class JointBatch final : public Joints {
     using Packs = std::vector<double, xsimd::aligned_allocator<double>>;
     static constexpr std::size_t n_members = History::members.size(),
                                  n_properties = CohesionProperties<double>::members.size(), n_dof = 2 * joint_nodes,
-                                 failure_row = joint_points * n_members, mode_row = failure_row + 1,
+                                 failure_row = 1 + joint_points * n_members, mode_row = failure_row + 1,
                                  factor_row = mode_row + 1, history_rows = factor_row + (extrinsic ? joint_points : 0);
     /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
     static constexpr double far_slip = 0.25;
@@ -64,6 +66,7 @@ public:
         return {sides_[joint], history[entry(joint, failure_row)] != 0};
     }
     JointState state_of(std::size_t joint, const State& state, std::span<const double> history) const override;
+    bool any_failed(std::span<const double> history) const override;
     std::vector<std::int32_t> sides_let_go(const State& accepted, std::span<const double> history) const override;
     double hand_over(std::span<const std::int32_t> sides, const State& accepted,
                      std::span<double> history) const override;
@@ -75,6 +78,33 @@ private:
     static Pack load(const Packs& values, std::size_t row) { return Pack::load_aligned(&values[row * pack_width]); }
     static Pack row(std::span<const double> history, std::size_t pack, std::size_t which) {
         return Pack::load_unaligned(&history[(pack * history_rows + which) * pack_width]);
+    }
+    static constexpr std::size_t member_row(std::size_t point, std::size_t member) {
+        return 1 + point * n_members + member;
+    }
+    /// Whether nothing has happened to the joints of a pack.
+    static bool untouched(std::span<const double> history, std::size_t pack) {
+        return history[pack * history_rows * pack_width] == 0;
+    }
+    /// What untouched joints do: true, and their tractions, if that is what they are at this trial as well.
+    bool stay_elastic(std::span<const double> history, std::size_t pack, const JointMotion<Pack>& motion,
+                      std::array<Traction<Pack>, joint_points>& tractions) const {
+        if constexpr (requires { &Law::template stays_intact<Pack, Pack>; } && !extrinsic) {
+            if (!untouched(history, pack)) return false;
+            CohesionProperties<Pack> p{};
+            for (const std::size_t i : {0, 1, 2, 6})
+                p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
+            const Pack intact(0.0);
+            const auto both = Law::stays_intact(p, intact, motion.opening[0], motion.slip[0]) &&
+                              Law::stays_intact(p, intact, motion.opening[1], motion.slip[1]);
+            if (!every_lane(both)) return false;
+            const Pack stiffness = p.penalty * load(weights_, pack);
+            for (std::size_t i = 0; i < joint_points; ++i)
+                tractions[i] = {stiffness * motion.opening[i], stiffness * motion.slip[i]};
+            return true;
+        } else {
+            return false;
+        }
     }
     /// Where a joint's entry of a row stands.
     static std::size_t entry(std::size_t joint, std::size_t which) {
@@ -104,7 +134,7 @@ private:
     }
     static History history_of(std::span<const double> history, std::size_t pack, std::size_t point) {
         History h;
-        for (std::size_t i = 0; i < n_members; ++i) h.*History::members[i] = row(history, pack, point * n_members + i);
+        for (std::size_t i = 0; i < n_members; ++i) h.*History::members[i] = row(history, pack, member_row(point, i));
         return h;
     }
     static void store(const Pack& value, std::span<double> history, std::size_t pack, std::size_t which) {
@@ -139,6 +169,9 @@ private:
     std::int32_t node(std::size_t joint, std::size_t k) const {
         return nodes_[(joint / pack_width * joint_nodes + k) * pack_width + joint % pack_width].value;
     }
+    /// Tractions times areas of joints to which something has happened, or may, and their updated history.
+    void soften(double t, std::span<const double> history, std::size_t pack, const JointMotion<Pack>& motion,
+                std::array<Traction<Pack>, joint_points>& tractions, std::span<double> updated) const;
     void append(const Mesh& mesh, const Joint& joint);
     void fill_last_pack();
     void plan_sums();
@@ -232,10 +265,12 @@ void JointBatch<Law, extrinsic>::plan_sums() {
     }
     slots_.resize(next.back());
     first_.push_back(slots_.size());
-    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+    // in the order in which add_force() goes through packs
+    for (std::size_t pack = 0; pack < n_packs(); ++pack)
         for (std::size_t k = 0; k < joint_nodes; ++k)
-            slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
-                (joint / pack_width * n_dof + 2 * k) * pack_width + joint % pack_width;
+            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint)
+                slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
+                    (pack * n_dof + 2 * k) * pack_width + joint % pack_width;
 }
 
 template <class Law, bool extrinsic>
@@ -246,60 +281,83 @@ void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) cons
             for (std::size_t i = 0; i < joint_points; ++i) store(Pack(1.0), history, pack, factor_row + i);
 }
 
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack,
+                                        const JointMotion<Pack>& motion,
+                                        std::array<Traction<Pack>, joint_points>& tractions,
+                                        std::span<double> updated) const {
+    Pack damage(1.0), apart(0.0), along(0.0);
+    for (std::size_t i = 0; i < joint_points; ++i) {
+        const CohesionProperties<Pack> law = of(history, pack, i);
+        const History before = history_of(history, pack, i);
+        const Pack w = weight(history, pack, before);
+        tractions[i] = Law::traction(law, before, motion.opening[i], motion.slip[i]);
+        tractions[i].normal *= w;
+        tractions[i].shear *= w;
+        if (updated.empty()) continue;
+        History after = Law::advance(law, before, motion.opening[i], motion.slip[i]);
+        if constexpr (extrinsic) after = choose_history(w > Pack(0.0), after, before);
+        for (std::size_t k = 0; k < n_members; ++k) store(after.*History::members[k], updated, pack, member_row(i, k));
+        damage = xsimd::min(damage, after.damage);
+        const Pack opening = positive_part(motion.opening[i]);
+        apart += opening * opening;
+        along += motion.slip[i] * motion.slip[i];
+        if constexpr (extrinsic) store(row(history, pack, factor_row + i), updated, pack, factor_row + i);
+    }
+    if (updated.empty()) return;
+    const Pack failed = row(history, pack, failure_row);
+    const auto fails = (failed == Pack(0.0)) && (damage >= Pack(1.0));
+    store(choose(fails, Pack(t), failed), updated, pack, failure_row);
+    const Pack both = apart + along;
+    store(choose(fails, Pack(apart / choose(both > Pack(0.0), both, Pack(1.0))), row(history, pack, mode_row)), updated,
+          pack, mode_row);
+    store(Pack(1.0), updated, pack, 0);
+}
+
 // ---- forces --------------------------------------------------------------------------------------------------------
 
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                                            std::span<double> updated) const {
     const auto n = static_cast<std::ptrdiff_t>(n_packs());
-#pragma omp parallel for schedule(static)
+    // one thread adds joint by joint; several leave it to the sum below, which adds in the same order
+    const bool alone = omp_get_max_threads() == 1;
+#pragma omp parallel for schedule(static) if (!alone)
     for (std::ptrdiff_t p = 0; p < n; ++p) {
         const auto pack = static_cast<std::size_t>(p);
         const auto motion = joint_motion(edge(pack), gather(trial.u, pack));
         std::array<Traction<Pack>, joint_points> tractions;
-        Pack damage(1.0), apart(0.0), along(0.0);
-        for (std::size_t i = 0; i < joint_points; ++i) {
-            const CohesionProperties<Pack> law = of(history, pack, i);
-            const History before = history_of(history, pack, i);
-            const Pack w = weight(history, pack, before);
-            tractions[i] = Law::traction(law, before, motion.opening[i], motion.slip[i]);
-            tractions[i].normal *= w;
-            tractions[i].shear *= w;
-            if (updated.empty()) continue;
-            History after = Law::advance(law, before, motion.opening[i], motion.slip[i]);
-            if constexpr (extrinsic) after = choose_history(w > Pack(0.0), after, before);
-            for (std::size_t k = 0; k < n_members; ++k)
-                store(after.*History::members[k], updated, pack, i * n_members + k);
-            damage = xsimd::min(damage, after.damage);
-            const Pack opening = positive_part(motion.opening[i]);
-            apart += opening * opening;
-            along += motion.slip[i] * motion.slip[i];
-            if constexpr (extrinsic) store(row(history, pack, factor_row + i), updated, pack, factor_row + i);
-        }
-        if (!updated.empty()) {
-            const Pack failed = row(history, pack, failure_row);
-            const auto fails = (failed == Pack(0.0)) && (damage >= Pack(1.0));
-            store(choose(fails, Pack(trial.t), failed), updated, pack, failure_row);
-            const Pack both = apart + along;
-            store(choose(fails, Pack(apart / choose(both > Pack(0.0), both, Pack(1.0))), row(history, pack, mode_row)),
-                  updated, pack, mode_row);
+        if (stay_elastic(history, pack, motion, tractions)) {
+            // what stands there is from a trial that was given up, or nothing
+            if (!updated.empty() && !untouched(updated, pack))
+                std::ranges::fill(updated.subspan(pack * history_rows * pack_width, history_rows * pack_width), 0.0);
+        } else {
+            soften(trial.t, history, pack, motion, tractions, updated);
         }
         const auto forces = joint_forces(motion, Pack(1.0), tractions);
+        if (alone) {
+            for (std::size_t k = 0; k < joint_nodes; ++k)
+                scatter_add_pairs(f.data(), &nodes_[(pack * joint_nodes + k) * pack_width], forces[k].x, forces[k].y);
+            continue;
+        }
         double* to = &forces_[pack * n_dof * pack_width];
         for (std::size_t k = 0; k < joint_nodes; ++k) {
             forces[k].x.store_aligned(to + 2 * k * pack_width);
             forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
         }
     }
+    if (alone) return;
     parallel_ranges(touched_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            double x = 0, y = 0;
+            double& to_x = f[2 * static_cast<std::size_t>(touched_[i])];
+            double& to_y = f[2 * static_cast<std::size_t>(touched_[i]) + 1];
+            double x = to_x, y = to_y;
             for (std::size_t s = first_[i]; s < first_[i + 1]; ++s) {
                 x += forces_[slots_[s]];
                 y += forces_[slots_[s] + pack_width];
             }
-            f[2 * static_cast<std::size_t>(touched_[i])] += x;
-            f[2 * static_cast<std::size_t>(touched_[i]) + 1] += y;
+            to_x = x;
+            to_y = y;
         }
     });
 }
@@ -392,11 +450,13 @@ void JointBatch<Law, extrinsic>::add_dissipated(std::span<const double> from, st
     const auto sum_of = [&](Pack History::*member) {
         return ordered_sum(n_packs(), partial_, [&](std::size_t first, std::size_t last) {
             Pack sum(0.0);
-            for (std::size_t pack = first; pack < last; ++pack)
+            for (std::size_t pack = first; pack < last; ++pack) {
+                if (untouched(to, pack)) continue;
                 for (std::size_t i = 0; i < joint_points; ++i) {
                     const History before = history_of(from, pack, i);
                     sum += weight(from, pack, before) * (history_of(to, pack, i).*member - before.*member);
                 }
+            }
             return xsimd::hadd(sum);
         });
     };

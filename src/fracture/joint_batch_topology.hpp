@@ -62,7 +62,7 @@ JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& 
     const auto motion = motion_of(joint, state.u);
     const auto member = [&](Pack History::*which, std::size_t point) {
         const auto found = std::ranges::find(History::members, which);
-        return history[entry(joint, point * n_members + static_cast<std::size_t>(found - History::members.begin()))];
+        return history[entry(joint, member_row(point, static_cast<std::size_t>(found - History::members.begin())))];
     };
     for (std::size_t k = 0; k < joint_nodes; ++k) result.nodes[k] = node(joint, k);
     result.side = sides_[joint];
@@ -92,10 +92,17 @@ double JointBatch<Law, extrinsic>::cracked_length(std::span<const double> histor
 }
 
 template <class Law, bool extrinsic>
+bool JointBatch<Law, extrinsic>::any_failed(std::span<const double> history) const {
+    for (std::size_t pack = 0; pack < n_packs(); ++pack)
+        if (!untouched(history, pack) && any_lane(row(history, pack, failure_row) > Pack(0.0))) return true;
+    return false;
+}
+
+template <class Law, bool extrinsic>
 std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& accepted,
                                                                    std::span<const double> history) const {
     const auto lets_go = [&](std::size_t joint) {
-        if (!(history[entry(joint, failure_row)] > 0)) return false;
+        if (untouched(history, joint / pack_width) || !(history[entry(joint, failure_row)] > 0)) return false;
         const auto motion = motion_of(joint, accepted.u);
         bool open = true, slid = true;
         for (std::size_t i = 0; i < joint_points; ++i) {
@@ -141,7 +148,7 @@ auto JointBatch<Law, extrinsic>::waiting(const State& accepted, std::span<const 
         static_assert(History::members[lambda_row] == &History::lambda_max);
         for (std::size_t joint = 0; joint < n_joints_; ++joint)
             for (std::size_t i = 0; i < joint_points; ++i) {
-                if (history[entry(joint, i * n_members + lambda_row)] >= 1 || node(joint, i) == node(joint, i + 2))
+                if (history[entry(joint, member_row(i, lambda_row))] >= 1 || node(joint, i) == node(joint, i + 2))
                     continue;
                 const auto motion = motion_of(joint, accepted.u);
                 ends.push_back({joint, i, node(joint, i), node(joint, i + 2),
@@ -162,7 +169,7 @@ double JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, do
             p.*CohesionProperties<double>::members[i] = properties_[(n_properties * pack + i) * pack_width + lane];
         const InsertedPoint<double> point = insert_point(p, normal, shear);
         for (std::size_t k = 0; k < n_members; ++k)
-            history[entry(end.joint, end.end * n_members + k)] = point.history.*CohesionHistory<double>::members[k];
+            history[entry(end.joint, member_row(end.end, k))] = point.history.*CohesionHistory<double>::members[k];
         history[entry(end.joint, factor_row + end.end)] = point.strength_factor;
         return end.weight * point.offset_energy;
     } else {

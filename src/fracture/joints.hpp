@@ -63,6 +63,8 @@ public:
     virtual std::pair<std::int32_t, bool> failure(std::size_t joint, std::span<const double> history) const = 0;
     virtual JointState state_of(std::size_t joint, const State& state, std::span<const double> history) const = 0;
 
+    /// Whether any joint has failed and has not been handed over.
+    virtual bool any_failed(std::span<const double> history) const = 0;
     /// Sides all of whose joints have failed and let go: open at both ends, or slid by more than a part of their
     /// length, past which the two ends no longer lie opposite each other. Ascending.
     virtual std::vector<std::int32_t> sides_let_go(const State& accepted, std::span<const double> history) const = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -42,6 +43,8 @@ InnerSides::InnerSides(Mesh& mesh) : mesh_(mesh), number_(3 * mesh.n_elements(),
         for (const ElementSide& side : {sides_[s].left, sides_[s].right})
             number_[index(side)] = static_cast<std::int32_t>(s);
 
+    original_.resize(mesh.n_nodes());
+    std::iota(original_.begin(), original_.end(), 0);
     at_node_.assign(mesh.n_nodes(), {0, 0});
     for (const std::int32_t node : mesh.connectivity) ++at_node_[static_cast<std::size_t>(node)].n;
     std::int32_t first = 0;
@@ -106,6 +109,7 @@ void InnerSides::split(std::int32_t node, std::vector<NodeCopy>& copies) {
         mesh_.nodes.push_back(std::array(mesh_.nodes[original]));
         mesh_.node_labels.push_back(std::int64_t{mesh_.node_labels[original]});
         at_node_.push_back(range);
+        original_.push_back(std::int32_t{original_[original]});
         for (const std::int32_t e : groups[g]) rename(e, node, copy);
         copies.push_back({node, copy});
     }
@@ -142,6 +146,34 @@ std::vector<NodeCopy> InnerSides::open(std::span<const std::int32_t> sides) {
                         if (std::ranges::find(nodes_of_element, copy) != nodes_of_element.end()) *end = copy;
                 }
     return copies;
+}
+
+void InnerSides::renumber() {
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> now(mesh_.n_nodes(), none), before;
+    for (std::int32_t& node : mesh_.connectivity) {
+        std::int32_t& number = now[static_cast<std::size_t>(node)];
+        if (number == none) {
+            number = static_cast<std::int32_t>(before.size());
+            before.push_back(node);
+        }
+        node = number;
+    }
+    const auto reorder = [&](auto& values) {
+        auto old = values;
+        for (std::size_t i = 0; i < before.size(); ++i) values[i] = old[static_cast<std::size_t>(before[i])];
+    };
+    reorder(mesh_.nodes);
+    reorder(mesh_.node_labels);
+    reorder(at_node_);
+    reorder(original_);
+    for (auto& [name, set] : mesh_.node_sets) {
+        for (std::int32_t& node : set) node = now[static_cast<std::size_t>(node)];
+        std::ranges::sort(set);
+    }
+    for (auto& [name, edges] : mesh_.boundaries)
+        for (BoundaryEdge& edge : edges)
+            for (std::int32_t* end : {&edge.a, &edge.b}) *end = now[static_cast<std::size_t>(*end)];
 }
 
 }  // namespace gneiss

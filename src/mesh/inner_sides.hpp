@@ -48,6 +48,11 @@ public:
     /// @return the copies, in the order of their numbers
     std::vector<NodeCopy> open(std::span<const std::int32_t> sides);
 
+    /// Numbers the nodes anew, in the order in which elements have them: copies stand at the end until then, far from
+    /// their neighbours.
+    void renumber();
+    /// Number that each node had, or the node that it is a copy of, when this was made.
+    std::span<const std::int32_t> original_of() const { return original_; }
     /// Elements that have a node, ascending.
     std::span<const std::int32_t> elements_at(std::int32_t node) const {
         const Range& range = at_node_[static_cast<std::size_t>(node)];
@@ -72,6 +77,7 @@ private:
     std::vector<std::int32_t> number_;  ///< shape (n_elements, 3)
     std::vector<bool> open_;
     std::vector<std::int32_t> elements_;  ///< those at a node one behind the other
+    std::vector<std::int32_t> original_;  ///< shape (n_nodes)
     std::vector<Range> at_node_;          ///< of elements_, shape (n_nodes)
 };
 

@@ -2,6 +2,7 @@
 // All elements of one kind, one law and one set of constants, stored by packs. One virtual call handles a run of packs;
 // there is none per element.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/functions.hpp"
+#include "base/dual.hpp"
 #include "base/pack.hpp"
 #include "materials/elastic_constants.hpp"
 #include "materials/point.hpp"
@@ -49,20 +50,22 @@ struct PointFields {
 ///
 /// because the second bracket is the largest |tau| + sigma tan phi over all directions.
 struct StrengthWatch {
-    double tensile_strength = 0;  ///< f_t, Pa, > 0, before the factor
-    double cohesion = 0;          ///< c_0, Pa, > 0, before the factor
-    double tan_phi = 0;           ///< -, >= 0
-    PackVector factor_squared;    ///< of each element, -, shape (packs, pack_width)
+    double per_tensile_strength = 0;  ///< 1/f_t, 1/Pa, before the factor
+    double per_cohesion = 0;          ///< 1/c_0, 1/Pa, before the factor
+    double tan_phi = 0;               ///< -, >= 0
+    PackVector factor_squared;        ///< of each element, -, shape (packs, pack_width)
 
-    /// Left side over the factor squared.
+    /// Left side over the factor squared, or up to 17 % more: the root of half^2 + xy^2 is at most the larger one of
+    /// both and 0.4143 of the smaller one, which costs a fifth of it.
     template <class V>
     V index(const Symmetric2<V>& stress) const {
-        const V mean = 0.5 * (stress.xx + stress.yy), half = 0.5 * (stress.xx - stress.yy);
-        const V radius = square_root(V(half * half + stress.xy * stress.xy));
-        const V zero(0.0), first = mean + radius;
-        const V rest = std::sqrt(1 + tan_phi * tan_phi) * radius + tan_phi * mean;
-        const V tension = choose(first > zero, V(first / tensile_strength), zero);
-        const V shear = choose(rest > zero, V(rest / cohesion), zero);
+        const V zero(0.0), mean = 0.5 * (stress.xx + stress.yy), half = 0.5 * (stress.xx - stress.yy);
+        const V a = choose(half < zero, V(-half), half), b = choose(stress.xy < zero, V(-stress.xy), stress.xy);
+        const auto a_is_larger = a > b;
+        const V radius = choose(a_is_larger, a, b) + 0.4143 * choose(a_is_larger, b, a);
+        const V first = per_tensile_strength * (mean + radius);
+        const V rest = per_cohesion * (std::sqrt(1 + tan_phi * tan_phi) * radius + tan_phi * mean);
+        const V tension = choose(first > zero, first, zero), shear = choose(rest > zero, rest, zero);
         return tension * tension + shear * shear;
     }
 };

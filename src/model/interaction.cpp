@@ -24,6 +24,10 @@ bool Interactions::watch() const {
     return std::ranges::any_of(all_, [](const auto& one) { return one->watches(); });
 }
 
+bool Interactions::stirred(const State& state) const {
+    return std::ranges::any_of(all_, [&](const auto& one) { return one->watches() && one->stirred(state); });
+}
+
 bool Interactions::look(const State& accepted) {
     bool changed = false;
     for (const auto& one : all_) changed |= one->watches() && one->look(accepted);

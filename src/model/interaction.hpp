@@ -48,6 +48,11 @@ public:
 
     /// Whether look() is to be called.
     virtual bool watches() const { return false; }
+    /// Event::stirred() for look().
+    virtual bool stirred(const State& state) const {
+        (void)state;
+        return true;
+    }
     /// Called before the first step and after every accepted one: what it then finds (a search of contacts) holds until
     /// the next call.
     /// @return whether couplings() have changed
@@ -93,6 +98,7 @@ public:
     /// @param interaction  one of them
     std::span<double> part(const Interaction& interaction, State& state) const;
     bool watch() const;
+    bool stirred(const State& state) const;
     /// Interaction::look() of all of them.
     bool look(const State& accepted);
     /// Interaction::follow() of all of them; the state's history becomes theirs.

@@ -18,6 +18,7 @@ public:
     std::optional<double> next_time(const State&) const override { return std::nullopt; }
     EventOutcome apply(State&) override { return EventOutcome::none; }
     bool watches() const override { return true; }
+    bool stirred(const State& state) const override { return solid_.interactions_.stirred(state); }
     EventOutcome look(State& accepted) override {
         if (!solid_.interactions_.look(accepted) || !solid_.tangent_) return EventOutcome::none;
         solid_.tangent_.reset();

@@ -24,8 +24,14 @@ public:
     /// The next instant known beforehand, later than state.last_event; steps end there exactly.
     virtual std::optional<double> next_time(const State& state) const = 0;
 
-    /// Whether it looks at every accepted state, not at its own instants alone. Then no step passes unseen.
+    /// Whether it looks at every accepted state, not at its own instants alone.
     virtual bool watches() const { return false; }
+    /// Whether look() may do anything in this state, whose velocities need not be there: integrators that can save work
+    /// where nobody sees a step ask for no more.
+    virtual bool stirred(const State& state) const {
+        (void)state;
+        return true;
+    }
     /// After every accepted step of an event that watches, and before the first one.
     virtual EventOutcome look(State& accepted) {
         (void)accepted;

@@ -78,8 +78,8 @@ public:
     virtual StepReport advance(const SemiDiscrete& system, State& state, double t_stop) = 0;
 
     /// Steps of which nobody sees any but the last: those that advance() would take, with the same bits, until one
-    /// comes to t_look or there have been enough of them for once. An integrator that need not complete its state after
-    /// every step saves work here.
+    /// comes to t_look, an event is stirred, or there have been enough of them for once. An integrator that need not
+    /// complete its state after every step saves work here.
     /// @throws RecoverableError if the first step failed; later ones are left to the next call
     virtual StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) {
         (void)t_look;

@@ -54,9 +54,8 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
         integrator.start(system, state, StartReason::fresh);
     }
     if (after_start) after_start();
-    const bool unseen = next_look && std::ranges::none_of(system.events(), [](const auto& event) {
-                            return event->watches() || event->n_indicators() > 0;
-                        });
+    const bool unseen =
+        next_look && std::ranges::none_of(system.events(), [](const auto& event) { return event->n_indicators() > 0; });
     try {
         while (state.t < t_end) {
             const double planned = next_stop ? next_stop(state.t) : t_end;

@@ -128,6 +128,12 @@ public:
     virtual void add_path_energies(const State& from, State& to) const = 0;
 
     virtual std::span<const std::unique_ptr<Event>> events() const = 0;
+    /// Whether an event that watches wants to look at this state; see Event::stirred().
+    bool stirred(const State& state) const {
+        for (const auto& event : events())
+            if (event->watches() && event->stirred(state)) return true;
+        return false;
+    }
 };
 
 }  // namespace gneiss

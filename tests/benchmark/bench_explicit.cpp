@@ -13,11 +13,11 @@
 #include <cmath>
 
 #include "base/flush_denormals.hpp"
+#include "benchmark/anisotropic_square.hpp"
 #include "benchmark/counted_flops.hpp"
 #include "benchmark/machine_peaks.hpp"
 #include "benchmark/textbook_cst.hpp"
 #include "integrators/central_difference.hpp"
-#include "mesh/make_mesh.hpp"
 #include "mesh/measure.hpp"
 #include "model/make_blocks.hpp"
 #include "model/solid_system.hpp"
@@ -28,29 +28,6 @@ namespace {
 const MachinePeaks& peaks() {
     static const MachinePeaks measured = measure_peaks();
     return measured;
-}
-
-/// A square of about n elements of a kind, meshed with alternating diagonals.
-Mesh square(bool compt, std::int64_t n) {
-    const int per_cell = compt ? 2 : 8;
-    const int cells = static_cast<int>(std::lround(std::sqrt(static_cast<double>(n) / per_cell)));
-    MeshOptions options;
-    options.source = MeshOptions::Source::rectangle;
-    options.cells = {cells, cells};
-    options.pattern = MeshOptions::Pattern::alternating;
-    return make_mesh(options, compt, {});
-}
-
-/// Initial velocity that strains every element by about 1e-3 in the course of the run.
-double velocity(double x) { return std::sin(7 * x); }
-
-MaterialOptions anisotropic(Form form) {
-    MaterialOptions material;
-    material.form = form;
-    material.density = 1000;
-    material.constants = {0.267e9, 0.8e9, 1.6e9, 0.8e9};
-    material.axes.angle = Formula(0.3);
-    return material;
 }
 
 void report(::benchmark::State& state, std::size_t n_elements, std::size_t n_steps, double bytes, double flops) {
@@ -84,10 +61,7 @@ void explicit_step(::benchmark::State& state, bool compt, Form form, int threads
     SolidSystem::Parts parts;
     parts.blocks = make_blocks(mesh, solid, {anisotropic(form)});
     const std::size_t block_bytes = parts.blocks.front()->bytes_per_element();
-    for (const auto& node : mesh.nodes) {
-        parts.initial_velocity.push_back(velocity(node[0]));
-        parts.initial_velocity.push_back(0);
-    }
+    parts.initial_velocity = velocities(mesh);
     const SolidSystem system(mesh, std::move(parts));
     // the bound of the step is looked at ever more rarely, down to once in a thousand steps: begin there
     CentralDifference integrator({.safety = 0.8, .bound_interval = 1024});

@@ -136,8 +136,8 @@ TEST_P(Cracks, Replay_ComesToTheSameMesh) {
 TEST(StrengthWatch, Index_IsNeverBelowTheEnvelopeOfAnyDirection) {
     const CohesionProperties<double> p{2e6, 5e6, 0.7, 0.4, 1, 1, 1};
     StrengthWatch watch;
-    watch.tensile_strength = p.tensile_strength;
-    watch.cohesion = p.cohesion;
+    watch.per_tensile_strength = 1 / p.tensile_strength;
+    watch.per_cohesion = 1 / p.cohesion;
     watch.tan_phi = p.tan_phi_initial;
     std::mt19937 random(3);
     std::normal_distribution<double> normal(0, 5e6);
