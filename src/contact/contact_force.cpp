@@ -1,0 +1,314 @@
+// Contact: what one evaluation of forces does. Candidates in packs, those in touch compressed, their forces in packs,
+// then summed in the order of the pairs in touch: which pairs a search has kept beyond them does not move a bit.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <limits>
+
+#include "base/dual.hpp"
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "contact/contact.hpp"
+
+namespace gneiss {
+namespace {
+
+constexpr std::size_t n_nodes = 5, n_dof = 2 * n_nodes;
+constexpr std::size_t packs_per_range = 256;  ///< what a thread takes at a time
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// body(first, last) on ranges of packs, in threads.
+template <class Body>
+void ranges_of_packs(std::size_t n_packs, Body body) {
+    const auto n_ranges = static_cast<std::ptrdiff_t>((n_packs + packs_per_range - 1) / packs_per_range);
+#pragma omp parallel for schedule(static) if (n_ranges > 1)
+    for (std::ptrdiff_t r = 0; r < n_ranges; ++r) {
+        const std::size_t first = static_cast<std::size_t>(r) * packs_per_range;
+        body(first, std::min(first + packs_per_range, n_packs));
+    }
+}
+
+}  // namespace
+
+void Contact::find_hits(std::span<const double> u) const {
+    const ContactorPoints& points = bodies_.points();
+    const auto reference = bodies_.reference();
+    x_.resize(reference.size());
+    point_x_.resize(2 * points.size());
+    parallel_ranges(x_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) x_[i] = reference[i] + u[i];
+    });
+    parallel_ranges(points.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = first; p < last; ++p) {
+            const std::size_t a = 2 * index(points.a[p]), b = 2 * index(points.b[p]);
+            const double w = points.weight_b[p];
+            point_x_[2 * p] = (1 - w) * x_[a] + w * x_[b];
+            point_x_[2 * p + 1] = (1 - w) * x_[a + 1] + w * x_[b + 1];
+        }
+    });
+    const std::size_t n_packs = candidates_.n_packs(), n = candidates_.pairs.size();
+    const std::size_t n_ranges = (n_packs + packs_per_range - 1) / packs_per_range;
+    if (found_.size() < n_ranges) found_.resize(n_ranges);
+    ranges_of_packs(n_packs, [&](std::size_t first, std::size_t last) {
+        auto& found = found_[first / packs_per_range];
+        found.clear();
+        for (std::size_t pack = first; pack < last; ++pack) {
+            Vec2<Pack> point;
+            std::array<Vec2<Pack>, 3> x;
+            std::array<Pack, 3> rising;
+            gather_pairs(point_x_.data(), &candidates_.points[pack * pack_width], point.x, point.y);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t place = (3 * pack + k) * pack_width;
+                gather_pairs(x_.data(), &candidates_.nodes[place], x[k].x, x[k].y);
+                rising[k] = Pack::load_aligned(&candidates_.rising[place]);
+            }
+            std::uint64_t inside = lane_bits(contains(point, x, rising));
+            for (; inside != 0; inside &= inside - 1) {
+                const std::size_t candidate = pack * pack_width + static_cast<std::size_t>(std::countr_zero(inside));
+                if (candidate < n) found.push_back(static_cast<std::int32_t>(candidate));
+            }
+        }
+    });
+    hits_.clear();
+    for (std::size_t r = 0; r < n_ranges; ++r) hits_.insert(hits_.end(), found_[r].begin(), found_[r].end());
+}
+
+bool Contact::joined(std::int32_t triangle, std::int32_t other) const {
+    const auto joined = bodies_.joined();
+    for (const std::int32_t a : bodies_.triangles()[index(triangle)])
+        for (const std::int32_t b : bodies_.triangles()[index(other)])
+            if (joined[index(a)] == joined[index(b)]) return true;
+    return false;
+}
+
+void Contact::match(std::span<const double> history) const {
+    slots_.assign(hits_.size(), -1);
+    known_.assign(hits_.size(), 0);
+    if (!remembers_ || history.empty()) return;
+    const AcceptedMemory memory(history, bodies_.points().size());
+    const auto triangle_of = [&](std::size_t hit) { return candidates_.pairs[index(hits_[hit])].triangle; };
+    for (std::size_t first = 0, last = 0; first < hits_.size(); first = last) {
+        const std::int32_t point = candidates_.pairs[index(hits_[first])].point;
+        while (last < hits_.size() && candidates_.pairs[index(hits_[last])].point == point) ++last;
+        std::array<bool, contact_slots> taken{};
+        std::array<std::int32_t, contact_slots> before;
+        for (std::size_t s = 0; s < contact_slots; ++s) before[s] = memory.triangle(index(point), s);
+        const auto take = [&](std::size_t hit, std::size_t slot, bool known) {
+            slots_[hit] = static_cast<std::int8_t>(slot);
+            known_[hit] = known;
+            taken[slot] = true;
+        };
+        // the same triangle, else one that holds together with it, else a slot whose body the point has left
+        for (std::size_t hit = first; hit < last; ++hit)
+            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
+                if (!taken[s] && before[s] == triangle_of(hit)) take(hit, s, true);
+        for (std::size_t hit = first; hit < last; ++hit)
+            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
+                if (!taken[s] && before[s] >= 0 && joined(before[s], triangle_of(hit))) take(hit, s, true);
+        for (std::size_t hit = first; hit < last; ++hit)
+            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
+                if (!taken[s]) take(hit, s, false);
+    }
+}
+
+double Contact::stiffness_of(const ContactCandidate& pair) const {
+    const auto p = index(pair.point);
+    return options_.thickness * bodies_.points().length[p] /
+           (layers_[p] + targets_[index(pair.triangle)].values.back());
+}
+
+LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) const {
+    constexpr std::size_t n_constants = TargetConstants::n - 1, n_members = AcceptedMemory::n_members;
+    alignas(pack_alignment) std::array<std::array<double, pack_width>, n_constants> constants;
+    alignas(pack_alignment) std::array<std::array<double, pack_width>, n_members + 1> remembered{};
+    alignas(pack_alignment) std::array<double, pack_width> weight, stiffness, friction, returned;
+    PairNumber* nodes = &hit_nodes_[pack * n_nodes * pack_width];
+    for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        const std::size_t hit = std::min(pack * pack_width + lane, hits_.size() - 1);
+        const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
+        const auto at = nodes_of(pair);
+        for (std::size_t k = 0; k < n_nodes; ++k) nodes[k * pack_width + lane] = {at[k]};
+        const auto& values = targets_[index(pair.triangle)].values;
+        for (std::size_t k = 0; k < n_constants; ++k) constants[k][lane] = values[k];
+        weight[lane] = bodies_.points().weight_b[index(pair.point)];
+        stiffness[lane] = stiffness_of(pair);
+        const bool remembered_too = slots_[hit] >= 0;
+        friction[lane] = remembered_too ? options_.friction : 0.0;
+        returned[lane] = remembered_too ? options_.restitution * options_.restitution : 1.0;
+        if (known_[hit] == 0) continue;
+        const ContactHistory<double> old =
+            AcceptedMemory(history, bodies_.points().size()).at(index(pair.point), index(slots_[hit]));
+        const std::array<double, n_members + 1> members{1.0,        old.anchor.x,   old.anchor.y, old.slip.x,
+                                                        old.slip.y, old.slip_limit, old.deepest};
+        for (std::size_t k = 0; k < members.size(); ++k) remembered[k][lane] = members[k];
+    }
+    const auto packed = [](const std::array<double, pack_width>& row) { return Pack::load_aligned(row.data()); };
+    LoadedPairs pairs;
+    const std::array<Vec2<Pack>*, n_nodes> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
+    for (std::size_t k = 0; k < n_nodes; ++k) gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
+    pairs.weight_b = packed(weight);
+    for (std::size_t k = 0; k < 3; ++k) {
+        pairs.target.reference[k] = {packed(constants[2 * k]), packed(constants[2 * k + 1])};
+        pairs.target.nodal[k] = packed(constants[6 + k]);
+    }
+    pairs.target.bubble = packed(constants[9]);
+    pairs.target.reach = packed(constants[10]);
+    const Pack normal = packed(stiffness);
+    pairs.law = {normal, options_.tangential_factor * normal, packed(friction), packed(returned)};
+    pairs.old = {packed(remembered[0]),
+                 {packed(remembered[1]), packed(remembered[2])},
+                 {packed(remembered[3]), packed(remembered[4])},
+                 packed(remembered[5]),
+                 packed(remembered[6])};
+    return pairs;
+}
+
+std::size_t Contact::respond(std::span<const double> history, std::span<double> updated) const {
+    const std::size_t n_packs = padded(hits_.size()) / pack_width;
+    hit_nodes_.resize(n_packs * n_nodes * pack_width);
+    forces_.resize(n_packs * n_dof * pack_width);
+    for (AlignedDoubles* energy : {&stored_, &slid_, &lost_}) energy->resize(n_packs * pack_width);
+    std::size_t deep = std::numeric_limits<std::size_t>::max();
+#pragma omp parallel for schedule(static, packs_per_range) reduction(min : deep) if (n_packs > packs_per_range)
+    for (std::ptrdiff_t p = 0; p < static_cast<std::ptrdiff_t>(n_packs); ++p) {
+        const auto pack = static_cast<std::size_t>(p), first = pack * pack_width;
+        const LoadedPairs pairs = load(pack, history);
+        const auto response = pairs.respond(pairs.a, pairs.b, pairs.x);
+        if (any_lane(response.too_deep))
+            deep = std::min(deep, first + static_cast<std::size_t>(std::countr_zero(lane_bits(response.too_deep))));
+        const auto forces = nodal_forces(response, pairs.weight_b);
+        double* to = &forces_[pack * n_dof * pack_width];
+        for (std::size_t k = 0; k < n_nodes; ++k) {
+            forces[k].x.store_aligned(to + 2 * k * pack_width);
+            forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
+        }
+        const std::size_t n_lanes = std::min(pack_width, hits_.size() - first);
+        for (std::size_t lane = n_lanes; lane < pack_width; ++lane)
+            for (std::size_t k = 0; k < n_dof; ++k) to[k * pack_width + lane] = 0;
+        (response.stored_normal + response.stored_tangential).store_aligned(&stored_[first]);
+        response.dissipated_friction.store_aligned(&slid_[first]);
+        response.dissipated_normal.store_aligned(&lost_[first]);
+        if (updated.empty()) continue;
+        const Memory memory(updated, bodies_.points().size());
+        for (std::size_t lane = 0; lane < n_lanes; ++lane) {
+            if (slots_[first + lane] < 0) continue;
+            const ContactCandidate& pair = candidates_.pairs[index(hits_[first + lane])];
+            const auto& next = response.next;
+            memory.set(index(pair.point), index(slots_[first + lane]), pair.triangle,
+                       {1.0,
+                        {next.anchor.x.get(lane), next.anchor.y.get(lane)},
+                        {next.slip.x.get(lane), next.slip.y.get(lane)},
+                        next.slip_limit.get(lane),
+                        next.deepest.get(lane)});
+        }
+    }
+    return deep;
+}
+
+void Contact::book(std::span<const double> history, std::span<double> updated) const {
+    const std::size_t n_points = bodies_.points().size();
+    const AcceptedMemory before(history, n_points);
+    const Memory after(updated, n_points);
+    double slid = 0, lost = 0;
+    for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
+        slid += slid_[hit];
+        lost += lost_[hit];
+    }
+    // springs of points that have left the body
+    std::size_t hit = 0;
+    for (std::size_t point = 0; point < n_points; ++point) {
+        std::size_t end = hit;
+        while (end < hits_.size() && index(candidates_.pairs[index(hits_[end])].point) == point) ++end;
+        for (std::size_t slot = 0; slot < contact_slots; ++slot) {
+            const std::int32_t triangle = before.triangle(point, slot);
+            if (triangle < 0) continue;
+            bool kept = false;
+            for (std::size_t h = hit; h < end; ++h) kept |= index(slots_[h]) == slot && known_[h] != 0;
+            if (kept) continue;
+            const ContactHistory<double> old = before.at(point, slot);
+            const double normal = stiffness_of({static_cast<std::int32_t>(point), triangle});
+            const ContactLaw<double> law{normal, options_.tangential_factor * normal, options_.friction, 1.0};
+            slid += released_energy(law, old);
+        }
+        hit = end;
+    }
+    after.friction() = before.friction() + slid;
+    after.restitution() = before.restitution() + lost;
+}
+
+void Contact::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
+                        std::span<double> updated) const {
+    const double limit = 0.5 * options_.skin;
+    if (const double moved = largest_motion(trial.u); !(moved <= limit))
+        throw RecoverableError(fmt::format(
+            "contact at t = {:.9g} s: a node has moved {:.3g} m since pairs were searched, further than half "
+            "of contact.skin, {:.3g} m",
+            trial.t, moved, limit));
+    find_hits(trial.u);
+    match(history);
+    if (!updated.empty()) Memory(updated, bodies_.points().size()).free_all();
+    if (const std::size_t deep = respond(history, updated); deep < hits_.size()) refuse_deep(trial, deep);
+    const std::size_t n_packs = padded(hits_.size()) / pack_width;
+    for (std::size_t pack = 0; pack < n_packs; ++pack)
+        for (std::size_t k = 0; k < n_nodes; ++k) {
+            const double* force = &forces_[(pack * n_dof + 2 * k) * pack_width];
+            scatter_add_pairs(f.data(), &hit_nodes_[(pack * n_nodes + k) * pack_width], Pack::load_aligned(force),
+                              Pack::load_aligned(force + pack_width));
+        }
+    if (!updated.empty()) book(history, updated);
+}
+
+double Contact::stored(std::span<const double> u, std::span<const double> history) const {
+    find_hits(u);
+    match(history);
+    respond(history, {});
+    double sum = 0;
+    for (std::size_t hit = 0; hit < hits_.size(); ++hit) sum += stored_[hit];
+    return sum;
+}
+
+void Contact::stiffness(const Trial& trial, std::span<const double> history,
+                        std::span<ForceTerm::Stiffness> df_du) const {
+    using D = Dual<static_cast<int>(n_dof), Pack>;
+    std::ranges::fill(df_du, ForceTerm::Stiffness{0, 0, 0, 0});
+    find_hits(trial.u);
+    match(history);
+    const std::size_t n_packs = padded(hits_.size()) / pack_width;
+    hit_nodes_.resize(n_packs * n_nodes * pack_width);
+    ranges_of_packs(n_packs, [&](std::size_t first, std::size_t last) {
+        for (std::size_t pack = first; pack < last; ++pack) {
+            const LoadedPairs pairs = load(pack, history);
+            const std::array<Vec2<Pack>, n_nodes> at{pairs.a, pairs.b, pairs.x[0], pairs.x[1], pairs.x[2]};
+            std::array<Vec2<D>, n_nodes> moved;
+            for (int k = 0; k < static_cast<int>(n_nodes); ++k)
+                moved[static_cast<std::size_t>(k)] = {D::variable(at[static_cast<std::size_t>(k)].x, 2 * k),
+                                                      D::variable(at[static_cast<std::size_t>(k)].y, 2 * k + 1)};
+            const auto f = nodal_forces(pairs.respond(moved[0], moved[1], std::array{moved[2], moved[3], moved[4]}),
+                                        pairs.weight_b);
+            for (std::size_t lane = 0; lane < pack_width && pack * pack_width + lane < hits_.size(); ++lane) {
+                ForceTerm::Stiffness* to = &df_du[index(hits_[pack * pack_width + lane]) * n_nodes * n_nodes];
+                for (std::size_t a = 0; a < n_nodes; ++a)
+                    for (std::size_t b = 0; b < n_nodes; ++b)
+                        *to++ = {f[a].x.derivative[2 * b].get(lane), f[a].x.derivative[2 * b + 1].get(lane),
+                                 f[a].y.derivative[2 * b].get(lane), f[a].y.derivative[2 * b + 1].get(lane)};
+            }
+        }
+    });
+}
+
+void Contact::refuse_deep(const Trial& trial, std::size_t hit) const {
+    const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
+    const auto nodes = nodes_of(pair);
+    const std::int64_t a = bodies_.node_label(nodes[0]), b = bodies_.node_label(nodes[1]);
+    throw RecoverableError(fmt::format(
+        "contact at t = {:.9g} s: {} at ({:.6g}, {:.6g}) m is deeper in element {} than the {:.3g} m that push it out; "
+        "a larger contact.penalty overlaps less",
+        trial.t, a == b ? fmt::format("node {}", a) : fmt::format("the edge of nodes {} and {}", a, b),
+        point_x_[2 * index(pair.point)], point_x_[2 * index(pair.point) + 1], bodies_.element_label(pair.triangle),
+        targets_[index(pair.triangle)].values[10]));
+}
+
+}  // namespace gneiss

@@ -1,0 +1,79 @@
+#pragma once
+// Pairs of a contactor point and a target triangle, side by side in packs.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+#include <xsimd/xsimd.hpp>
+
+#include "base/pack.hpp"
+#include "contact/cell_search.hpp"
+#include "contact/contact_point.hpp"
+
+namespace gneiss {
+
+using AlignedDoubles = std::vector<double, xsimd::aligned_allocator<double, pack_alignment>>;
+
+/// What a search has found, laid out for `contains`. Lanes behind the last pair repeat it.
+struct CandidatePacks {
+    std::vector<ContactCandidate> pairs;
+    std::vector<PairNumber> points;  ///< shape (packs, lanes)
+    std::vector<PairNumber> nodes;   ///< of the triangles, shape (packs, 3, lanes)
+    AlignedDoubles rising;           ///< of `contains`, shape (packs, 3, lanes)
+
+    std::size_t n_packs() const { return points.size() / pack_width; }
+
+    /// @param joined  numbers that decide which end of an edge is the lower one: two triangles that are held together
+    /// along it agree, even if each has nodes of its own
+    void assign(std::span<const ContactCandidate> found, std::span<const std::array<std::int32_t, 3>> triangles,
+                std::span<const std::int32_t> joined) {
+        pairs.assign(found.begin(), found.end());
+        const std::size_t n = padded(pairs.size());
+        points.resize(n);
+        nodes.resize(3 * n);
+        rising.resize(3 * n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const ContactCandidate& pair = pairs[i < pairs.size() ? i : pairs.size() - 1];
+            const auto& triangle = triangles[static_cast<std::size_t>(pair.triangle)];
+            const std::size_t pack = i / pack_width, lane = i % pack_width;
+            points[i] = {pair.point};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t place = (3 * pack + k) * pack_width + lane;
+                nodes[place] = {triangle[k]};
+                rising[place] = joined[static_cast<std::size_t>(triangle[(k + 1) % 3])] <
+                                        joined[static_cast<std::size_t>(triangle[(k + 2) % 3])]
+                                    ? 1.0
+                                    : 0.0;
+            }
+        }
+    }
+};
+
+/// What contact has to know of a target beside its current shape.
+struct TargetConstants {
+    static constexpr std::size_t n = 12;
+    /// Reference x and y of the nodes, nodal potentials, bubble, reach (m), compliance of the body (m/Pa).
+    std::array<double, n> values;
+};
+
+/// A pack of pairs in touch.
+struct LoadedPairs {
+    Vec2<Pack> a, b;              ///< ends of the contactor's edge, m
+    std::array<Vec2<Pack>, 3> x;  ///< current nodes of the target, m
+    Pack weight_b;
+    ContactTarget<Pack> target;
+    ContactLaw<Pack> law;
+    ContactHistory<Pack> old;
+
+    /// @param a, b, x  plain, or with derivatives
+    template <class T>
+    auto respond(const Vec2<T>& from, const Vec2<T>& to, const std::array<Vec2<T>, 3>& at) const {
+        const Pack weight_a = Pack(1.0) - weight_b;
+        const Vec2<T> point{weight_a * from.x + weight_b * to.x, weight_a * from.y + weight_b * to.y};
+        return contact_response(point, at, target, law, old);
+    }
+};
+
+}  // namespace gneiss
