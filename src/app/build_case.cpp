@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "contact/make_contact.hpp"
+#include "contact/walls.hpp"
 #include "fracture/cohesion.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
@@ -85,7 +87,8 @@ Case build_case(CaseOptions options) {
     for (const std::string& warning : report.warnings) built.warnings.push_back("mesh: " + warning);
 
     std::vector<JointEdge> joints;
-    if (options.fracture.method != FractureOptions::Method::none) joints = open_all_sides(built.mesh);
+    std::vector<NodeCopy> copies;
+    if (options.fracture.method != FractureOptions::Method::none) joints = open_all_sides(built.mesh, &copies);
 
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
@@ -98,6 +101,14 @@ Case build_case(CaseOptions options) {
         collect(problems, [&] {
             parts.interactions.push_back(make_cohesion(built.mesh, joints, parts.blocks, options.materials,
                                                        options.solid, options.fracture, built.warnings));
+        });
+    if (options.contact.method != ContactOptions::Method::none && !parts.blocks.empty())
+        collect(problems, [&] {
+            auto contact = make_contact({built.mesh, copies}, parts.blocks, options.solid, options.contact);
+            auto walls =
+                options.walls.empty() ? nullptr : make_walls(*contact, options.walls, options.contact.friction);
+            parts.interactions.push_back(std::move(contact));
+            if (walls) parts.interactions.push_back(std::move(walls));
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });

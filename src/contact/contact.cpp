@@ -51,6 +51,7 @@ void Contact::search() {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = reference[i] + searched_[i];
     search_.search({x_, bodies_.triangles(), &bodies_.points(), bodies_.joined()}, options_.skin);
     moved_ = 0;
+    ++n_searches_;
     candidates_.assign(search_.candidates(), bodies_.triangles(), bodies_.joined());
 
     if (targets_.size() == bodies_.triangles().size() && layers_.size() == bodies_.points().size()) return;
@@ -93,6 +94,19 @@ bool Contact::look(const State& accepted) {
     return before != candidates_.pairs;
 }
 
+std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now) {
+    std::vector<std::array<std::int32_t, 3>> by_ends;
+    for (std::size_t p = 0; p < old.size(); ++p) by_ends.push_back({old.a[p], old.b[p], static_cast<std::int32_t>(p)});
+    std::ranges::sort(by_ends);
+    std::vector<std::int32_t> same;
+    for (std::size_t p = 0; p < now.size(); ++p) {
+        const auto found = std::ranges::lower_bound(by_ends, std::array{now.a[p], now.b[p], 0});
+        const bool there = found != by_ends.end() && (*found)[0] == now.a[p] && (*found)[1] == now.b[p];
+        same.push_back(there ? (*found)[2] : -1);
+    }
+    return same;
+}
+
 void Contact::follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                      PathEnergies& energies) {
     const double before = stored(accepted.u, history);
@@ -103,8 +117,6 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
     targets_.clear();
     search();
     if (remembers_) {
-        // A point keeps what it remembers as long as the names of its edge's ends do: where a node has been copied the
-        // original keeps it.
         const ContactorPoints& points = bodies_.points();
         std::vector<double> now(Memory::size(points.size()), 0.0);
         const Memory memory(now, points.size());
@@ -112,17 +124,11 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
         memory.free_all();
         memory.friction() = old.friction();
         memory.restitution() = old.restitution();
-        std::vector<std::array<std::int32_t, 3>> by_name;
-        for (std::size_t p = 0; p < n_old; ++p)
-            by_name.push_back({old_points.a[p], old_points.b[p], static_cast<std::int32_t>(p)});
-        std::ranges::sort(by_name);
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            const auto found = std::ranges::lower_bound(by_name, std::array{points.a[p], points.b[p], 0});
-            if (found == by_name.end() || (*found)[0] != points.a[p] || (*found)[1] != points.b[p]) continue;
-            const std::size_t q = index((*found)[2]);
-            for (std::size_t slot = 0; slot < contact_slots; ++slot)
-                if (old.triangle(q, slot) >= 0) memory.set(p, slot, old.triangle(q, slot), old.at(q, slot));
-        }
+        const std::vector<std::int32_t> same = same_points(old_points, points);
+        for (std::size_t p = 0; p < points.size(); ++p)
+            for (std::size_t slot = 0; slot < contact_slots && same[p] >= 0; ++slot)
+                if (const std::size_t q = index(same[p]); old.triangle(q, slot) >= 0)
+                    memory.set(p, slot, old.triangle(q, slot), old.at(q, slot));
         history = std::move(now);
     }
     energies.splitting += stored(accepted.u, history) - before;

@@ -24,6 +24,13 @@ struct ContactOverlap {
     double depth;                   ///< m
 };
 
+/// Deeper than this part of the shortest edge is no rounding of positions.
+inline constexpr double overlap_tolerance = 1e-6;
+
+/// For each point the one among the old that has the same ends: it has the same memory. -1: there is none. Where a node
+/// has been copied, the original keeps it.
+std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now);
+
 class Contact final : public Interaction {
 public:
     struct Options {
@@ -67,7 +74,11 @@ public:
     /// Points that are deeper than `tolerance` (m) inside a body, by ascending point.
     std::vector<ContactOverlap> overlaps(std::span<const double> u, double tolerance) const;
     const ContactBodies& bodies() const { return bodies_; }
-    std::size_t n_candidates() const { return search_.candidates().size(); }
+    const Options& options() const { return options_; }
+    // What the last evaluation met, and how often pairs were searched: for reports.
+    std::size_t n_candidates() const { return candidates_.pairs.size(); }
+    std::size_t n_touching() const { return hits_.size(); }
+    std::size_t n_searches() const { return n_searches_; }
 
 private:
     using Memory = ContactMemory<double>;
@@ -92,7 +103,8 @@ private:
     ContactBodies bodies_;
     CellSearch search_;
     CandidatePacks candidates_;
-    std::vector<double> searched_;          ///< displacements at the last search, m
+    std::vector<double> searched_;  ///< displacements at the last search, m
+    std::size_t n_searches_ = 0;
     double moved_ = 0;                      ///< largest way of a node since then, at the last look, m
     std::vector<TargetConstants> targets_;  ///< by triangle
     std::vector<double> layers_;            ///< of the points: compliance of their body, m/Pa

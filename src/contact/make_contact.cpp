@@ -13,8 +13,6 @@
 namespace gneiss {
 namespace {
 
-/// Deeper than this part of the shortest edge is no rounding of positions.
-constexpr double overlap_tolerance = 1e-6;
 constexpr std::size_t most_named = 10;
 
 /// Of each element, m/Pa: its size, the side of an equilateral triangle of the area of one of its triangles, over its

@@ -34,11 +34,12 @@ std::string place(std::size_t material) { return fmt::format("[[material]] {}", 
 
 }  // namespace
 
-std::vector<JointEdge> open_all_sides(Mesh& mesh) {
+std::vector<JointEdge> open_all_sides(Mesh& mesh, std::vector<NodeCopy>* copies) {
     InnerSides inner(mesh);
     std::vector<std::int32_t> all(inner.sides().size());
     std::iota(all.begin(), all.end(), 0);
-    inner.open(all);
+    std::vector<NodeCopy> made = inner.open(all);
+    if (copies != nullptr) *copies = std::move(made);
     return joint_edges(mesh, inner, all);
 }
 

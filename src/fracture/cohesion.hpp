@@ -14,8 +14,9 @@
 namespace gneiss {
 
 /// Opens every inner side: elements have nodes of their own, and a joint lies wherever two of them touch.
+/// @param[out] copies  if given, the nodes that have come into being
 /// @return the sub-edges of all joints
-std::vector<JointEdge> open_all_sides(Mesh& mesh);
+std::vector<JointEdge> open_all_sides(Mesh& mesh, std::vector<NodeCopy>* copies = nullptr);
 
 /// Joints on these edges. Where two materials meet, or axes differ, each property is the smaller one of the two sides.
 /// The scatter of an edge depends on the number of its inner side alone, for both sub-edges of a composite's side.
