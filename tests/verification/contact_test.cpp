@@ -109,7 +109,7 @@ TEST(CollidingBlocks, Balance_EnergyAndMomenta) {
         ContactOptions contact;
         contact.friction = friction;
         const test::Solid solid = colliding(contact);
-        const test::SolidRun run = test::run_solid(*solid.system, 1e-3);
+        const test::SolidRun run = test::run_solid(*solid.system, 1e-3, {.safety = 0.4});
         EXPECT_LT(run.ledger.balance_error(), 2e-3) << friction;
         double x = 0, y = 0, turn = 0, size = 0;
         const State start = solid.system->initial_state();

@@ -142,6 +142,7 @@ t_end = 1
 mesh = { generator = "quadrilateral", corners = [[0, 0], [48, 44], [48, 60], [0, 44]], cells = [2, 3] }
 solid = { plane = "strain" }
 material = [{ density = 1000, constants = { E = 1e9, nu = 0.25 } }]
+contact = { method = "potential", friction = 0, penalty = 1e10 }
 run = { t_end = 1 }
 )toml",
     R"toml(
