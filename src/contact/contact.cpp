@@ -54,24 +54,34 @@ void Contact::search() {
     ++n_searches_;
     candidates_.assign(search_.candidates(), bodies_.triangles(), bodies_.joined());
 
-    if (targets_.size() == bodies_.triangles().size() && layers_.size() == bodies_.points().size()) return;
-    targets_.resize(bodies_.triangles().size());
-    for (std::size_t t = 0; t < targets_.size(); ++t) {
-        const auto& nodes = bodies_.triangles()[t];
+    if (!targets_.empty()) return;  // they are of this mesh
+    for (std::size_t t = 0; t < bodies_.triangles().size(); ++t) {
         const TrianglePotential& potential = bodies_.potential(t);
-        auto& v = targets_[t].values;
-        for (std::size_t k = 0; k < 3; ++k) {
-            v[2 * k] = reference[2 * index(nodes[k])];
-            v[2 * k + 1] = reference[2 * index(nodes[k]) + 1];
-            v[6 + k] = potential.nodal[k];
-        }
-        v[9] = potential.bubble;
-        v[10] = potential.reach;
-        v[11] = bodies_.compliance(bodies_.body_of_node(nodes[0]));
+        targets_.push_back({potential.nodal, potential.bubble, potential.reach,
+                            bodies_.compliance(bodies_.body_of_node(bodies_.triangles()[t][0]))});
     }
-    layers_.clear();
-    for (const std::int32_t node : bodies_.points().a)
-        layers_.push_back(bodies_.compliance(bodies_.body_of_node(node)));
+    points_.clear();
+    const ContactorPoints& points = bodies_.points();
+    for (std::size_t p = 0; p < points.size(); ++p)
+        points_.push_back({points.weight_b[p], options_.thickness * points.length[p],
+                           bodies_.compliance(bodies_.body_of_node(points.a[p]))});
+}
+
+/// The pair alone, against a spring of stiffness k without friction.
+ContactResponse<double, double> Contact::alone(const ContactCandidate& pair, double k) const {
+    const auto nodes = nodes_of(pair);
+    const auto pick = [](std::span<const double> values, std::int32_t node) {
+        return Vec2<double>{values[2 * index(node)], values[2 * index(node) + 1]};
+    };
+    const TargetConstants& constants = targets_[index(pair.triangle)];
+    ContactTarget<double> target{{}, constants.nodal, constants.bubble, constants.reach};
+    std::array<Vec2<double>, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+        x[i] = pick(x_, nodes[2 + i]);
+        target.reference[i] = pick(bodies_.reference(), nodes[2 + i]);
+    }
+    return contact_response(pick(point_x_, pair.point), x, target, ContactLaw<double>{k, k, 0.0, 1.0},
+                            ContactHistory<double>{});
 }
 
 double Contact::largest_motion(std::span<const double> u) const {
@@ -170,15 +180,8 @@ void Contact::bound_stiffness(std::span<const double> u) const {
     for (const std::int32_t hit : hits_) {
         const ContactCandidate& pair = candidates_.pairs[index(hit)];
         const auto nodes = nodes_of(pair);
-        const auto at = [&](std::int32_t node) { return Vec2<double>{x_[2 * index(node)], x_[2 * index(node) + 1]}; };
-        const double w = points.weight_b[index(pair.point)];
-        const std::array x{at(nodes[2]), at(nodes[3]), at(nodes[4])};
-        const auto& v = targets_[index(pair.triangle)].values;
-        const ContactTarget<double> target{
-            {{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}}}, {v[6], v[7], v[8]}, v[9], v[10]};
-        const double k = stiffness_of(pair);
-        const auto response = contact_response((1 - w) * at(nodes[0]) + w * at(nodes[1]), x, target,
-                                               ContactLaw<double>{k, k, 0.0, 1.0}, ContactHistory<double>{});
+        const double w = points.weight_b[index(pair.point)], k = stiffness_of(pair);
+        const auto response = alone(pair, k);
         if (response.depth == 0) continue;
         const double g = std::sqrt(dot(response.force, response.force)) / (k * response.depth);
         const double most = 2 * factor * k * g * g;
@@ -188,7 +191,7 @@ void Contact::bound_stiffness(std::span<const double> u) const {
     }
     std::vector<double> always(n, 0.0);
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const double most = 2 * factor * h * points.length[p] / (layers_[p] + least);
+        const double most = 2 * factor * points_[p].area / (points_[p].layer + least);
         always[index(points.a[p])] += most * (1 - points.weight_b[p]);
         always[index(points.b[p])] += most * points.weight_b[p];
     }
@@ -235,13 +238,8 @@ std::vector<ContactOverlap> Contact::overlaps(std::span<const double> u, double 
     for (const std::int32_t hit : hits_) {
         const ContactCandidate& pair = candidates_.pairs[index(hit)];
         const auto nodes = nodes_of(pair);
-        const auto& v = targets_[index(pair.triangle)].values;
         const Vec2<double> p{point_x_[2 * index(pair.point)], point_x_[2 * index(pair.point) + 1]};
-        const auto at = [&](std::int32_t node) { return Vec2<double>{x_[2 * index(node)], x_[2 * index(node) + 1]}; };
-        const ContactTarget<double> target{
-            {{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}}}, {v[6], v[7], v[8]}, v[9], v[10]};
-        const auto response = contact_response(p, std::array{at(nodes[2]), at(nodes[3]), at(nodes[4])}, target,
-                                               ContactLaw<double>{1.0, 1.0, 0.0, 1.0}, ContactHistory<double>{});
+        const auto response = alone(pair, 1.0);
         if (response.depth > tolerance)
             all.push_back({bodies_.node_label(nodes[0]),
                            bodies_.node_label(nodes[1]),

@@ -90,6 +90,7 @@ private:
     void match(std::span<const double> history) const;
     LoadedPairs load(std::size_t first, std::span<const double> history) const;
     double stiffness_of(const ContactCandidate& pair) const;
+    ContactResponse<double, double> alone(const ContactCandidate& pair, double k) const;
     std::size_t respond(std::span<const double> history, std::span<double> updated) const;
     void book(std::span<const double> history, std::span<double> updated) const;
     double stored(std::span<const double> u, std::span<const double> history) const;
@@ -107,7 +108,7 @@ private:
     std::size_t n_searches_ = 0;
     double moved_ = 0;                      ///< largest way of a node since then, at the last look, m
     std::vector<TargetConstants> targets_;  ///< by triangle
-    std::vector<double> layers_;            ///< of the points: compliance of their body, m/Pa
+    std::vector<PointConstants> points_;    ///< by contactor point
 
     // scratch of one evaluation
     mutable std::vector<double> x_, point_x_;               ///< current positions of nodes and points, m

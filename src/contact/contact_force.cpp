@@ -63,7 +63,7 @@ void Contact::find_hits(std::span<const double> u) const {
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t place = (3 * pack + k) * pack_width;
                 gather_pairs(x_.data(), &candidates_.nodes[place], x[k].x, x[k].y);
-                rising[k] = Pack::load_aligned(&candidates_.rising[place]);
+                rising[k] = ones_where(candidates_.rising[3 * pack + k]);
             }
             std::uint64_t inside = lane_bits(contains(point, x, rising));
             for (; inside != 0; inside &= inside - 1) {
@@ -85,9 +85,9 @@ bool Contact::joined(std::int32_t triangle, std::int32_t other) const {
 }
 
 void Contact::match(std::span<const double> history) const {
+    if (!remembers_) return;
     slots_.assign(hits_.size(), -1);
     known_.assign(hits_.size(), 0);
-    if (!remembers_ || history.empty()) return;
     const AcceptedMemory memory(history, bodies_.points().size());
     const auto triangle_of = [&](std::size_t hit) { return candidates_.pairs[index(hits_[hit])].triangle; };
     for (std::size_t first = 0, last = 0; first < hits_.size(); first = last) {
@@ -101,6 +101,10 @@ void Contact::match(std::span<const double> history) const {
             known_[hit] = known;
             taken[slot] = true;
         };
+        if (last == first + 1 && before[0] == triangle_of(first)) {
+            take(first, 0, true);
+            continue;
+        }
         // the same triangle, else one that holds together with it, else a slot whose body the point has left
         for (std::size_t hit = first; hit < last; ++hit)
             for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
@@ -115,54 +119,61 @@ void Contact::match(std::span<const double> history) const {
 }
 
 double Contact::stiffness_of(const ContactCandidate& pair) const {
-    const auto p = index(pair.point);
-    return options_.thickness * bodies_.points().length[p] /
-           (layers_[p] + targets_[index(pair.triangle)].values.back());
+    const PointConstants& point = points_[index(pair.point)];
+    return point.area / (point.layer + targets_[index(pair.triangle)].layer);
 }
 
 LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) const {
-    constexpr std::size_t n_constants = TargetConstants::n - 1, n_members = AcceptedMemory::n_members;
-    alignas(pack_alignment) std::array<std::array<double, pack_width>, n_constants> constants;
-    alignas(pack_alignment) std::array<std::array<double, pack_width>, n_members + 1> remembered{};
-    alignas(pack_alignment) std::array<double, pack_width> weight, stiffness, friction, returned;
+    std::array<PairNumber, pack_width> triangles, points, memories;
+    alignas(pack_alignment) std::array<double, pack_width> known, held;
     PairNumber* nodes = &hit_nodes_[pack * n_nodes * pack_width];
+    const ContactorPoints& all = bodies_.points();
     for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t hit = std::min(pack * pack_width + lane, hits_.size() - 1);
         const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
-        const auto at = nodes_of(pair);
-        for (std::size_t k = 0; k < n_nodes; ++k) nodes[k * pack_width + lane] = {at[k]};
-        const auto& values = targets_[index(pair.triangle)].values;
-        for (std::size_t k = 0; k < n_constants; ++k) constants[k][lane] = values[k];
-        weight[lane] = bodies_.points().weight_b[index(pair.point)];
-        stiffness[lane] = stiffness_of(pair);
-        const bool remembered_too = slots_[hit] >= 0;
-        friction[lane] = remembered_too ? options_.friction : 0.0;
-        returned[lane] = remembered_too ? options_.restitution * options_.restitution : 1.0;
-        if (known_[hit] == 0) continue;
-        const ContactHistory<double> old =
-            AcceptedMemory(history, bodies_.points().size()).at(index(pair.point), index(slots_[hit]));
-        const std::array<double, n_members + 1> members{1.0,        old.anchor.x,   old.anchor.y, old.slip.x,
-                                                        old.slip.y, old.slip_limit, old.deepest};
-        for (std::size_t k = 0; k < members.size(); ++k) remembered[k][lane] = members[k];
+        const auto& triangle = bodies_.triangles()[index(pair.triangle)];
+        nodes[lane] = {all.a[index(pair.point)]};
+        nodes[pack_width + lane] = {all.b[index(pair.point)]};
+        for (std::size_t k = 0; k < 3; ++k) nodes[(k + 2) * pack_width + lane] = {triangle[k]};
+        triangles[lane] = {pair.triangle * static_cast<std::int32_t>(TargetConstants::n_pairs)};
+        points[lane] = {pair.point * static_cast<std::int32_t>(PointConstants::n_pairs)};
+        if (!remembers_) continue;
+        known[lane] = known_[hit];
+        held[lane] = slots_[hit] >= 0 ? 1.0 : 0.0;
+        memories[lane] = {static_cast<std::int32_t>(
+            known_[hit] != 0 ? AcceptedMemory::pair_of(index(pair.point), index(slots_[hit])) : 0)};
     }
-    const auto packed = [](const std::array<double, pack_width>& row) { return Pack::load_aligned(row.data()); };
     LoadedPairs pairs;
     const std::array<Vec2<Pack>*, n_nodes> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
     for (std::size_t k = 0; k < n_nodes; ++k) gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
-    pairs.weight_b = packed(weight);
-    for (std::size_t k = 0; k < 3; ++k) {
-        pairs.target.reference[k] = {packed(constants[2 * k]), packed(constants[2 * k + 1])};
-        pairs.target.nodal[k] = packed(constants[6 + k]);
-    }
-    pairs.target.bubble = packed(constants[9]);
-    pairs.target.reach = packed(constants[10]);
-    const Pack normal = packed(stiffness);
-    pairs.law = {normal, options_.tangential_factor * normal, packed(friction), packed(returned)};
-    pairs.old = {packed(remembered[0]),
-                 {packed(remembered[1]), packed(remembered[2])},
-                 {packed(remembered[3]), packed(remembered[4])},
-                 packed(remembered[5]),
-                 packed(remembered[6])};
+    for (std::size_t k = 0; k < 3; ++k)
+        gather_pairs(bodies_.reference().data(), nodes + (k + 2) * pack_width, pairs.target.reference[k].x,
+                     pairs.target.reference[k].y);
+    const double* constants = targets_.front().nodal.data();
+    Pack layer, area, other_layer, unused;
+    gather_pairs(constants, triangles.data(), pairs.target.nodal[0], pairs.target.nodal[1]);
+    gather_pairs(constants + 2, triangles.data(), pairs.target.nodal[2], pairs.target.bubble);
+    gather_pairs(constants + 4, triangles.data(), pairs.target.reach, layer);
+    gather_pairs(&points_.front().weight_b, points.data(), pairs.weight_b, area);
+    gather_pairs(&points_.front().layer, points.data(), other_layer, unused);
+    const Pack normal = area / (layer + other_layer);
+    const double returned = options_.restitution * options_.restitution;
+    pairs.law = {normal, options_.tangential_factor * normal, Pack(0.0), Pack(1.0)};
+    if (!remembers_) return pairs;
+
+    const auto is_held = Pack::load_aligned(held.data()) > Pack(0.5);
+    pairs.law.friction = choose(is_held, Pack(options_.friction), Pack(0.0));
+    pairs.law.returned = choose(is_held, Pack(returned), Pack(1.0));
+    pairs.old.in_touch = Pack::load_aligned(known.data());
+    const auto is_known = pairs.old.in_touch > Pack(0.5);
+    if (!any_lane(is_known)) return pairs;
+    const double* memory = AcceptedMemory(history, all.size()).pairs();
+    gather_pairs(memory, memories.data(), pairs.old.anchor.x, pairs.old.anchor.y);
+    gather_pairs(memory + 2, memories.data(), pairs.old.slip.x, pairs.old.slip.y);
+    gather_pairs(memory + 4, memories.data(), pairs.old.slip_limit, pairs.old.deepest);
+    for (Pack* member : {&pairs.old.anchor.x, &pairs.old.anchor.y, &pairs.old.slip.x, &pairs.old.slip.y,
+                         &pairs.old.slip_limit, &pairs.old.deepest})
+        *member = choose(is_known, *member, Pack(0.0));
     return pairs;
 }
 
@@ -193,16 +204,20 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
         response.dissipated_normal.store_aligned(&lost_[first]);
         if (updated.empty()) continue;
         const Memory memory(updated, bodies_.points().size());
+        const auto& next = response.next;
+        alignas(pack_alignment) std::array<std::array<double, pack_width>, Memory::n_members> members;
+        const std::array<const Pack*, Memory::n_members> rows{&next.anchor.x, &next.anchor.y,   &next.slip.x,
+                                                              &next.slip.y,   &next.slip_limit, &next.deepest};
+        for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->store_aligned(members[k].data());
         for (std::size_t lane = 0; lane < n_lanes; ++lane) {
             if (slots_[first + lane] < 0) continue;
             const ContactCandidate& pair = candidates_.pairs[index(hits_[first + lane])];
-            const auto& next = response.next;
             memory.set(index(pair.point), index(slots_[first + lane]), pair.triangle,
                        {1.0,
-                        {next.anchor.x.get(lane), next.anchor.y.get(lane)},
-                        {next.slip.x.get(lane), next.slip.y.get(lane)},
-                        next.slip_limit.get(lane),
-                        next.deepest.get(lane)});
+                        {members[0][lane], members[1][lane]},
+                        {members[2][lane], members[3][lane]},
+                        members[4][lane],
+                        members[5][lane]});
         }
     }
     return deep;
@@ -308,7 +323,7 @@ void Contact::refuse_deep(const Trial& trial, std::size_t hit) const {
         "a larger contact.penalty overlaps less",
         trial.t, a == b ? fmt::format("node {}", a) : fmt::format("the edge of nodes {} and {}", a, b),
         point_x_[2 * index(pair.point)], point_x_[2 * index(pair.point) + 1], bodies_.element_label(pair.triangle),
-        targets_[index(pair.triangle)].values[10]));
+        targets_[index(pair.triangle)].reach));
 }
 
 }  // namespace gneiss

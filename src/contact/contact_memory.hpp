@@ -52,6 +52,12 @@ public:
         v[4] = history.slip_limit;
         v[5] = history.deepest;
     }
+    /// What points remember as pairs of numbers: three in a row for a point and a slot, the first of them by its
+    /// number.
+    Number* pairs() const { return &values_[place(0, 0)]; }
+    static std::size_t pair_of(std::size_t point, std::size_t slot) {
+        return (point * contact_slots + slot) * n_members / 2;
+    }
     void free_all() const { std::fill_n(values_.begin() + n_sums, contact_slots * n_points_, -1.0); }
 
 private:
