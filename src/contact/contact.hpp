@@ -87,12 +87,12 @@ private:
     void search();
     double largest_motion(std::span<const double> u) const;
     void find_hits(std::span<const double> u) const;
-    void match(std::span<const double> history) const;
+    /// Which slot of its point each pair in touch has. @return energy of springs that nothing holds any more, J
+    double match(std::span<const double> history) const;
     LoadedPairs load(std::size_t first, std::span<const double> history) const;
     double stiffness_of(const ContactCandidate& pair) const;
     ContactResponse<double, double> alone(const ContactCandidate& pair, double k) const;
     std::size_t respond(std::span<const double> history, std::span<double> updated) const;
-    void book(std::span<const double> history, std::span<double> updated) const;
     double stored(std::span<const double> u, std::span<const double> history) const;
     void bound_stiffness(std::span<const double> u) const;
     bool joined(std::int32_t triangle, std::int32_t other) const;

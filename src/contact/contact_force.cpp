@@ -84,38 +84,60 @@ bool Contact::joined(std::int32_t triangle, std::int32_t other) const {
     return false;
 }
 
-void Contact::match(std::span<const double> history) const {
-    if (!remembers_) return;
+double Contact::match(std::span<const double> history) const {
+    if (!remembers_) return 0;
     slots_.assign(hits_.size(), -1);
     known_.assign(hits_.size(), 0);
-    const AcceptedMemory memory(history, bodies_.points().size());
-    const auto triangle_of = [&](std::size_t hit) { return candidates_.pairs[index(hits_[hit])].triangle; };
-    for (std::size_t first = 0, last = 0; first < hits_.size(); first = last) {
-        const std::int32_t point = candidates_.pairs[index(hits_[first])].point;
-        while (last < hits_.size() && candidates_.pairs[index(hits_[last])].point == point) ++last;
-        std::array<bool, contact_slots> taken{};
-        std::array<std::int32_t, contact_slots> before;
-        for (std::size_t s = 0; s < contact_slots; ++s) before[s] = memory.triangle(index(point), s);
+    const std::size_t n_points = points_.size();
+    const AcceptedMemory memory(history, n_points);
+    std::array<const double*, contact_slots> before;  // triangles
+    for (std::size_t s = 0; s < contact_slots; ++s) before[s] = memory.triangles(s).data();
+    const auto in_use = [&](std::size_t point) {
+        bool any = false;
+        for (std::size_t s = 0; s < contact_slots; ++s) any |= before[s][point] >= 0;
+        return any;
+    };
+    const auto pair_at = [&](std::size_t hit) { return candidates_.pairs[index(hits_[hit])]; };
+    double released = 0;
+    std::size_t last = 0;
+    for (std::size_t point = 0; point < n_points; ++point) {
+        const std::size_t first = last;
+        while (last < hits_.size() && index(pair_at(last).point) == point) ++last;
+        if (!in_use(point)) {
+            for (std::size_t hit = first; hit < std::min(last, first + contact_slots); ++hit)
+                slots_[hit] = static_cast<std::int8_t>(hit - first);
+            continue;
+        }
+        std::array<bool, contact_slots> taken{}, kept{};
         const auto take = [&](std::size_t hit, std::size_t slot, bool known) {
             slots_[hit] = static_cast<std::int8_t>(slot);
             known_[hit] = known;
             taken[slot] = true;
+            kept[slot] = known;
         };
-        if (last == first + 1 && before[0] == triangle_of(first)) {
-            take(first, 0, true);
-            continue;
-        }
         // the same triangle, else one that holds together with it, else a slot whose body the point has left
-        for (std::size_t hit = first; hit < last; ++hit)
-            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
-                if (!taken[s] && before[s] == triangle_of(hit)) take(hit, s, true);
-        for (std::size_t hit = first; hit < last; ++hit)
-            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
-                if (!taken[s] && before[s] >= 0 && joined(before[s], triangle_of(hit))) take(hit, s, true);
-        for (std::size_t hit = first; hit < last; ++hit)
-            for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
-                if (!taken[s]) take(hit, s, false);
+        std::size_t n_left = last - first;
+        const auto for_each_choice = [&](auto good, bool known) {
+            if (n_left == 0) return;
+            for (std::size_t hit = first; hit < last; ++hit)
+                for (std::size_t s = 0; s < contact_slots && slots_[hit] < 0; ++s)
+                    if (!taken[s] && good(static_cast<std::int32_t>(before[s][point]), pair_at(hit).triangle)) {
+                        take(hit, s, known);
+                        --n_left;
+                    }
+        };
+        for_each_choice([](std::int32_t old, std::int32_t now) { return old == now; }, true);
+        for_each_choice([&](std::int32_t old, std::int32_t now) { return old >= 0 && joined(old, now); }, true);
+        for_each_choice([](std::int32_t, std::int32_t) { return true; }, false);
+        for (std::size_t s = 0; s < contact_slots; ++s) {
+            const auto triangle = static_cast<std::int32_t>(before[s][point]);
+            if (triangle < 0 || kept[s]) continue;
+            const double normal = stiffness_of({static_cast<std::int32_t>(point), triangle});
+            const ContactLaw<double> law{normal, options_.tangential_factor * normal, options_.friction, 1.0};
+            released += released_energy(law, memory.at(point, s));
+        }
     }
+    return released;
 }
 
 double Contact::stiffness_of(const ContactCandidate& pair) const {
@@ -187,7 +209,8 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
     for (std::ptrdiff_t p = 0; p < static_cast<std::ptrdiff_t>(n_packs); ++p) {
         const auto pack = static_cast<std::size_t>(p), first = pack * pack_width;
         const LoadedPairs pairs = load(pack, history);
-        const auto response = pairs.respond(pairs.a, pairs.b, pairs.x);
+        const auto response = remembers_ ? pairs.respond(pairs.a, pairs.b, pairs.x)
+                                         : pairs.respond<Tangential::none>(pairs.a, pairs.b, pairs.x);
         if (any_lane(response.too_deep))
             deep = std::min(deep, first + static_cast<std::size_t>(std::countr_zero(lane_bits(response.too_deep))));
         const auto forces = nodal_forces(response, pairs.weight_b);
@@ -223,37 +246,6 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
     return deep;
 }
 
-void Contact::book(std::span<const double> history, std::span<double> updated) const {
-    const std::size_t n_points = bodies_.points().size();
-    const AcceptedMemory before(history, n_points);
-    const Memory after(updated, n_points);
-    double slid = 0, lost = 0;
-    for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
-        slid += slid_[hit];
-        lost += lost_[hit];
-    }
-    // springs of points that have left the body
-    std::size_t hit = 0;
-    for (std::size_t point = 0; point < n_points; ++point) {
-        std::size_t end = hit;
-        while (end < hits_.size() && index(candidates_.pairs[index(hits_[end])].point) == point) ++end;
-        for (std::size_t slot = 0; slot < contact_slots; ++slot) {
-            const std::int32_t triangle = before.triangle(point, slot);
-            if (triangle < 0) continue;
-            bool kept = false;
-            for (std::size_t h = hit; h < end; ++h) kept |= index(slots_[h]) == slot && known_[h] != 0;
-            if (kept) continue;
-            const ContactHistory<double> old = before.at(point, slot);
-            const double normal = stiffness_of({static_cast<std::int32_t>(point), triangle});
-            const ContactLaw<double> law{normal, options_.tangential_factor * normal, options_.friction, 1.0};
-            slid += released_energy(law, old);
-        }
-        hit = end;
-    }
-    after.friction() = before.friction() + slid;
-    after.restitution() = before.restitution() + lost;
-}
-
 void Contact::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                         std::span<double> updated) const {
     const double limit = 0.5 * options_.skin;
@@ -263,7 +255,7 @@ void Contact::add_force(const Trial& trial, std::span<const double> history, std
             "of contact.skin, {:.3g} m",
             trial.t, moved, limit));
     find_hits(trial.u);
-    match(history);
+    const double released = match(history);
     if (!updated.empty()) Memory(updated, bodies_.points().size()).free_all();
     if (const std::size_t deep = respond(history, updated); deep < hits_.size()) refuse_deep(trial, deep);
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
@@ -273,7 +265,16 @@ void Contact::add_force(const Trial& trial, std::span<const double> history, std
             scatter_add_pairs(f.data(), &hit_nodes_[(pack * n_nodes + k) * pack_width], Pack::load_aligned(force),
                               Pack::load_aligned(force + pack_width));
         }
-    if (!updated.empty()) book(history, updated);
+    if (updated.empty()) return;
+    double slid = released, lost = 0;
+    for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
+        slid += slid_[hit];
+        lost += lost_[hit];
+    }
+    const AcceptedMemory before(history, points_.size());
+    const Memory after(updated, points_.size());
+    after.friction() = before.friction() + slid;
+    after.restitution() = before.restitution() + lost;
 }
 
 double Contact::stored(std::span<const double> u, std::span<const double> history) const {

@@ -91,11 +91,11 @@ struct LoadedPairs {
     ContactHistory<Pack> old;
 
     /// @param a, b, x  plain, or with derivatives
-    template <class T>
+    template <Tangential tangential = Tangential::held, class T>
     auto respond(const Vec2<T>& from, const Vec2<T>& to, const std::array<Vec2<T>, 3>& at) const {
         const Pack weight_a = Pack(1.0) - weight_b;
         const Vec2<T> point{weight_a * from.x + weight_b * to.x, weight_a * from.y + weight_b * to.y};
-        return contact_response(point, at, target, law, old);
+        return contact_response<tangential>(point, at, target, law, old);
     }
 };
 
