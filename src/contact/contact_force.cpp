@@ -150,6 +150,7 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
     alignas(pack_alignment) std::array<double, pack_width> known, held;
     PairNumber* nodes = &hit_nodes_[pack * n_nodes * pack_width];
     const ContactorPoints& all = bodies_.points();
+    const AcceptedMemory memory(history, all.size());
     for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t hit = std::min(pack * pack_width + lane, hits_.size() - 1);
         const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
@@ -162,8 +163,8 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
         if (!remembers_) continue;
         known[lane] = known_[hit];
         held[lane] = slots_[hit] >= 0 ? 1.0 : 0.0;
-        memories[lane] = {static_cast<std::int32_t>(
-            known_[hit] != 0 ? AcceptedMemory::pair_of(index(pair.point), index(slots_[hit])) : 0)};
+        memories[lane] = {
+            static_cast<std::int32_t>(known_[hit] != 0 ? memory.pair_of(index(pair.point), index(slots_[hit])) : 0)};
     }
     LoadedPairs pairs;
     const std::array<Vec2<Pack>*, n_nodes> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
@@ -189,10 +190,10 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
     pairs.old.in_touch = Pack::load_aligned(known.data());
     const auto is_known = pairs.old.in_touch > Pack(0.5);
     if (!any_lane(is_known)) return pairs;
-    const double* memory = AcceptedMemory(history, all.size()).pairs();
-    gather_pairs(memory, memories.data(), pairs.old.anchor.x, pairs.old.anchor.y);
-    gather_pairs(memory + 2, memories.data(), pairs.old.slip.x, pairs.old.slip.y);
-    gather_pairs(memory + 4, memories.data(), pairs.old.slip_limit, pairs.old.deepest);
+    const double* members = memory.pairs();
+    gather_pairs(members, memories.data(), pairs.old.anchor.x, pairs.old.anchor.y);
+    gather_pairs(members + 2, memories.data(), pairs.old.slip.x, pairs.old.slip.y);
+    gather_pairs(members + 4, memories.data(), pairs.old.slip_limit, pairs.old.deepest);
     for (Pack* member : {&pairs.old.anchor.x, &pairs.old.anchor.y, &pairs.old.slip.x, &pairs.old.slip.y,
                          &pairs.old.slip_limit, &pairs.old.deepest})
         *member = choose(is_known, *member, Pack(0.0));

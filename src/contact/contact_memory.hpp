@@ -3,9 +3,10 @@
 //
 //     dissipated by friction, by restitution (J)
 //     which triangle each slot of each point touches, -1: the slot is free    shape (slots, points)
-//     what it remembers there; of a free slot nothing is meant by it          shape (points, slots, 6)
+//     what it remembers there; of a free slot nothing is meant by it          shape (slots, points, 6)
 //
-// Free slots cost one number each: what they held is neither cleared nor read.
+// Free slots cost one number each: what they held is neither cleared nor read. Most points are in one body at most, so
+// that what is read stands one behind the other.
 
 #include <algorithm>
 #include <cstddef>
@@ -55,14 +56,14 @@ public:
     /// What points remember as pairs of numbers: three in a row for a point and a slot, the first of them by its
     /// number.
     Number* pairs() const { return &values_[place(0, 0)]; }
-    static std::size_t pair_of(std::size_t point, std::size_t slot) {
-        return (point * contact_slots + slot) * n_members / 2;
+    std::size_t pair_of(std::size_t point, std::size_t slot) const {
+        return (slot * n_points_ + point) * n_members / 2;
     }
     void free_all() const { std::fill_n(values_.begin() + n_sums, contact_slots * n_points_, -1.0); }
 
 private:
     std::size_t place(std::size_t point, std::size_t slot) const {
-        return n_sums + contact_slots * n_points_ + (point * contact_slots + slot) * n_members;
+        return n_sums + contact_slots * n_points_ + (slot * n_points_ + point) * n_members;
     }
 
     std::span<Number> values_;
