@@ -88,7 +88,8 @@ double Contact::largest_motion(std::span<const double> u) const {
     double largest = 0;  // squared
     for (std::size_t i = 0; i < searched_.size(); i += 2) {
         const double dx = u[i] - searched_[i], dy = u[i + 1] - searched_[i + 1];
-        largest = std::max(largest, dx * dx + dy * dy);
+        const double way = dx * dx + dy * dy;
+        largest = way <= largest ? largest : way;  // NaN stays
     }
     return std::sqrt(largest);
 }

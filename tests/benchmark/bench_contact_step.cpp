@@ -6,8 +6,10 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "base/flush_denormals.hpp"
@@ -142,6 +144,27 @@ void step(::benchmark::State& state, Fragments kind, double friction) {
     state.counters["touching/triangle"] = static_cast<double>(contact->n_touching()) / n;
     state.counters["searches"] = static_cast<double>(contact->n_searches()) / static_cast<double>(n_steps);
 }
+
+/// A side of a mesh of joints that fails, in a random place.
+void follow(::benchmark::State& state) {
+    omp_set_num_threads(1);
+    Mesh mesh = square(static_cast<int>(state.range(0)));
+    InnerSides sides(mesh);
+    std::vector<std::int32_t> all(sides.sides().size());
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<NodeCopy> copies = sides.open(all);
+    std::ranges::shuffle(all, std::mt19937(1));
+    Contact contact({mesh, copies}, std::vector<double>(mesh.n_elements(), 1e-12), 4,
+                    {.friction = 0.5, .skin = 0.1 * std::sqrt(2.0 / static_cast<double>(mesh.n_elements()))});
+    State at;
+    at.u.resize(2 * mesh.n_nodes());
+    std::vector<double> history(contact.n_history());
+    contact.initial_history(history);
+    PathEnergies energies;
+    std::size_t next = 0;
+    for (auto _ : state) contact.follow({mesh, {}, {}, std::span(&all[next++], 1)}, at, history, energies);
+}
+BENCHMARK(follow)->Arg(2000)->Arg(20000)->ArgName("triangles")->Unit(::benchmark::kMicrosecond);
 
 void sizes(::benchmark::internal::Benchmark* bench) {
     bench->ArgsProduct({{20000}, {1, 2}})->ArgNames({"triangles", "threads"})->UseRealTime()->MinTime(0.5);
