@@ -112,8 +112,8 @@ struct ContactOptions {
 
 /// A rigid half-plane that bodies rest on or are pressed by.
 struct WallOptions {
-    std::array<double, 2> point{0, 0};   ///< on its face at t = 0, m
-    std::array<double, 2> normal{0, 1};  ///< out of the wall, towards the bodies; any length > 0
+    std::array<double, 2> point{0, 0};     ///< on its face at t = 0, m
+    std::array<double, 2> normal{0, 1};    ///< out of the wall, towards the bodies; any length > 0
     std::array<double, 2> velocity{0, 0};  ///< m/s
     std::optional<double> friction;        ///< >= 0; unset: that of contact
 };
