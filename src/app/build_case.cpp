@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "contact/make_contact.hpp"
+#include "contact/walls.hpp"
 #include "fracture/cohesion.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
@@ -133,11 +135,22 @@ Case build_case(CaseOptions options) {
                 properties.clear();
             }
         });
+    std::vector<std::unique_ptr<Interaction>> contacts;
+    const bool contact = options.contact.method != ContactOptions::Method::none;
+    if (contact && !parts.blocks.empty())
+        collect(problems, [&] {
+            const auto original_of = built.inner ? built.inner->original_of() : std::span<const std::int32_t>{};
+            auto bodies = make_contact({*built.mesh, original_of}, parts.blocks, options.solid, options.contact);
+            auto walls = options.walls.empty() ? nullptr : make_walls(*bodies, options.walls, options.contact.friction);
+            contacts.push_back(std::move(bodies));
+            if (walls) contacts.push_back(std::move(walls));
+        });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
     collect(problems, [&] { built.probes = ProbeTable(*built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
     if (joints) parts.interactions.push_back(std::move(joints));
+    for (auto& one : contacts) parts.interactions.push_back(std::move(one));
     if (built.integrator->is_static()) need_supports(*built.mesh, parts);
 
     for (const double time : options.output.field_times)
@@ -157,7 +170,7 @@ Case build_case(CaseOptions options) {
             .solid = *built.system,
             .joints = *cohesion,
             .properties = std::move(properties),
-            .contact = false,
+            .contact = contact,
             .surroundings = surroundings_of(*built.system, *built.mesh, options),
             .loads_everywhere = std::ranges::any_of(
                 options.loads, [](const auto& load) { return load.kind == LoadOptions::Kind::body_force; })});

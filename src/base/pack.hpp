@@ -39,6 +39,20 @@ inline double* pair_at(double* values, PairBytes offset) {
     return reinterpret_cast<double*>(reinterpret_cast<char*>(values) + offset.value);
 }
 
+/// Bit i is set where a condition holds in lane i.
+inline std::uint64_t lane_bits(const Pack::batch_bool_type& condition) {
+#if defined(__AVX512F__)
+    return static_cast<std::uint64_t>(condition.data);
+#elif defined(__AVX__)
+    return static_cast<std::uint64_t>(_mm256_movemask_pd(condition.data));
+#else
+    std::uint64_t bits = 0;
+    for (std::size_t lane = 0; lane < pack_width; ++lane)
+        bits |= static_cast<std::uint64_t>(condition.get(lane)) << lane;
+    return bits;
+#endif
+}
+
 /// Gathers W pairs into an x and a y pack.
 /// @param index  PairNumber or PairBytes, shape (pack_width)
 template <class Index>

@@ -129,11 +129,15 @@ V sliding_work(const V& stiffness, const V& s_0, const V& s, const V& l_0, const
     return choose(slides, 0.5 * stiffness * (l_begin + l) * excess, V(0.0));
 }
 
+/// Whether there is a tangential spring. Without one nothing is remembered either: friction 0 and all of the energy
+/// returned; it saves half of the work.
+enum class Tangential { held, none };
+
 /// Force and energies of a point that lies in the triangle (`contains`).
 /// @param point  current position, m
 /// @param x      current nodes of the target, m, shape (3), not inverted
 /// @param old    of the last accepted state; zero if the point did not touch this body
-template <class T, class V>
+template <Tangential tangential = Tangential::held, class T, class V>
 ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Vec2<T>, 3>& x,
                                        const ContactTarget<V>& target, const ContactLaw<V>& law,
                                        const ContactHistory<V>& old) {
@@ -166,6 +170,13 @@ ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Ve
     result.too_deep = depth >= target.reach;
 
     // normal force: along p_n while phi is the deepest so far, along p_n/e^2 below
+    if constexpr (tangential == Tangential::none) {
+        const T normal_force = law.normal_stiffness * result.depth;
+        result.force = -(normal_force * g);
+        result.stored_normal = 0.5 * law.normal_stiffness * depth * depth;
+        result.stored_tangential = result.dissipated_normal = result.dissipated_friction = V(0.0);
+        return result;
+    }
     const V lost = V(1.0) - law.returned;
     const V unloading = law.normal_stiffness / law.returned;
     const T deepest = choose(depth > old.deepest, result.depth, T(old.deepest));

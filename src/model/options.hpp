@@ -94,6 +94,31 @@ struct FractureOptions {
     int seed = 0;                ///< of the scatter, >= 0
 };
 
+// ---- contact --------------------------------------------------------------------------------------------------------
+
+struct ContactOptions {
+    enum class Method {
+        none,      ///< bodies pass through each other
+        potential  ///< FORMULATION 6
+    };
+    Method method = Method::none;
+    double friction = 0;           ///< Coulomb's mu, >= 0, no default in a deck
+    double restitution = 1;        ///< e: e^2 of the energy of an impact comes back, in (0, 1]
+    double penalty = 0;            ///< Pa/m, > 0; 0: from penalty_factor
+    double penalty_factor = 1;     ///< times the stiffness of a layer of elements on either side, in series, > 0
+    double tangential_factor = 1;  ///< tangential stiffness over the normal one, > 0
+    double potential_cap = 4;      ///< in local sizes: no penetration potential is larger, > 0
+    double skin = 0.2;             ///< in shortest edges of the boundary: see CellSearch, > 0
+};
+
+/// A rigid half-plane that bodies rest on or are pressed by.
+struct WallOptions {
+    std::array<double, 2> point{0, 0};     ///< on its face at t = 0, m
+    std::array<double, 2> normal{0, 1};    ///< out of the wall, towards the bodies; any length > 0
+    std::array<double, 2> velocity{0, 0};  ///< m/s
+    std::optional<double> friction;        ///< >= 0; unset: that of contact
+};
+
 // ---- loads, boundaries, initial state -------------------------------------------------------------------------------
 
 /// Factor on a load or a prescribed motion against time.
@@ -186,6 +211,8 @@ struct CaseOptions {
     std::vector<BoundaryOptions> boundaries;
     std::vector<InitialOptions> initial;
     FractureOptions fracture;
+    ContactOptions contact;
+    std::vector<WallOptions> walls;
     IntegratorOptions integrator;
     RunOptions run;
     OutputOptions output;

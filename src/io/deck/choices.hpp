@@ -165,6 +165,12 @@ inline constexpr std::array<Choice<FractureOptions::Method>, 4> fracture_methods
     {"y_code", FractureOptions::Method::y_code, "the same with the joint of Y-code, which dissipates 16 % too much"},
 }};
 
+inline constexpr std::array<Choice<ContactOptions::Method>, 2> contact_methods{{
+    {"none", ContactOptions::Method::none, "bodies pass through each other"},
+    {"potential", ContactOptions::Method::potential,
+     "points of every boundary against the triangles of every body, pushed out by a potential"},
+}};
+
 inline const std::array<Choice<std::string>, 6> linear_solvers{{
     {"automatic", "automatic", "CHOLMOD where the tangent is symmetric and positive definite, UMFPACK elsewhere"},
     {"cholmod", "cholmod", "Cholesky, for symmetric positive definite tangents alone"},

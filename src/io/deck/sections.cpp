@@ -232,6 +232,11 @@ const Section<CaseOptions>& case_section() {
         if (table.given("material") && out.materials.empty() && !table.failed("material")) {
             table.problem("material", "given none, must be at least one [[material]]");
         }
+        if (!out.walls.empty() && out.contact.method == ContactOptions::Method::none && !table.failed("contact"))
+            table.problem("wall", "has no effect without `contact.method`");
+        for (std::size_t i = 0; i < out.walls.size(); ++i)
+            if (out.walls[i].normal == std::array{0.0, 0.0} && !table.failed("wall"))
+                table.problem("wall", fmt::format("the normal of wall[{}] has no length", i));
         std::map<std::string, std::size_t> owner;  // of each region; the empty name stands for all others
         for (std::size_t i = 0; i < out.materials.size(); ++i) {
             const toml::node& node = *table.table()["material"][i].node();
@@ -258,6 +263,8 @@ const Section<CaseOptions>& case_section() {
                 {.meaning = "boundary conditions, one `[[boundary]]` each"}),
          tables("initial", &C::initial, initial_section, {.meaning = "initial velocities, one `[[initial]]` each"}),
          table("fracture", &C::fracture, fracture_section, {.meaning = "cracks along edges of elements"}),
+         table("contact", &C::contact, contact_section, {.meaning = "contact of bodies, and of the faces of cracks"}),
+         tables("wall", &C::walls, wall_section, {.meaning = "rigid walls that bodies touch, one `[[wall]]` each"}),
          table("integrator", &C::integrator, integrator_section, {.meaning = "time integration"}),
          table("run", &C::run, run_section, {.required = true, .meaning = "how long, how damped"}),
          table("output", &C::output, output_section, {.meaning = "what is written, and when"})},

@@ -35,6 +35,8 @@ const Section<MaterialOptions::Stiffening>& stiffening_section();
 const Section<MaterialOptions>& viscosity_section();
 const Section<StrengthOptions>& strength_section();
 const Section<FractureOptions>& fracture_section();
+const Section<ContactOptions>& contact_section();
+const Section<WallOptions>& wall_section();
 
 /// Whether exactly one of the sets that suit the law is given, and completely; reports otherwise.
 bool check_constants_set(const Value& value, const GivenConstants& given, LawKind law);

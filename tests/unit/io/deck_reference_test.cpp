@@ -58,6 +58,19 @@ method = "intrinsic"
 penalty = 30
 weibull_modulus = 12
 seed = 3
+[contact]
+method = "potential"
+friction = 0.5
+restitution = 0.9
+penalty_factor = 2
+tangential_factor = 0.8
+potential_cap = 3
+skin = 0.3
+[[wall]]
+point = [0, -1]
+normal = [0, 1]
+velocity = [0.0, 0.1]
+friction = 0.2
 [[load]]
 on = "hole"
 type = "pressure"
@@ -129,6 +142,7 @@ t_end = 1
 mesh = { generator = "quadrilateral", corners = [[0, 0], [48, 44], [48, 60], [0, 44]], cells = [2, 3] }
 solid = { plane = "strain" }
 material = [{ density = 1000, constants = { E = 1e9, nu = 0.25 } }]
+contact = { method = "potential", friction = 0, penalty = 1e10 }
 run = { t_end = 1 }
 )toml",
     R"toml(

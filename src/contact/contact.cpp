@@ -1,0 +1,254 @@
+#include "contact/contact.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+
+namespace gneiss {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// In what follows a candidate's nodes are the ends of the point's edge and the three of the target.
+constexpr std::size_t n_nodes = 5;
+
+}  // namespace
+
+void Contact::Options::validate() const {
+    std::vector<Problem> problems;
+    const auto require = [&](bool good, const char* what, double value, const char* range) {
+        if (!good)
+            problems.push_back({std::string("contact.") + what, fmt::format("given {}, must be {}", value, range)});
+    };
+    require(thickness > 0, "thickness", thickness, "> 0 m");
+    require(friction >= 0 && std::isfinite(friction), "friction", friction, ">= 0");
+    require(restitution > 0 && restitution <= 1, "restitution", restitution, "in (0, 1]");
+    require(tangential_factor > 0 && std::isfinite(tangential_factor), "tangential_factor", tangential_factor, "> 0");
+    require(skin > 0 && std::isfinite(skin), "skin", skin, "> 0 m");
+    if (!problems.empty()) throw InputError(problems);
+}
+
+Contact::Contact(const PartedMesh& start, std::span<const double> layers, double cap, const Options& options)
+    : options_(options), remembers_(options.friction > 0 || options.restitution < 1), bodies_(start, layers, cap) {
+    options_.validate();
+    searched_.assign(2 * bodies_.n_nodes(), 0.0);
+    search();
+}
+
+void Contact::initial_history(std::span<double> history) const {
+    if (!remembers_) return;
+    std::ranges::fill(history, 0.0);
+    Memory(history, bodies_.points().size()).free_all();
+}
+
+void Contact::search() {
+    const auto reference = bodies_.reference();
+    x_.resize(reference.size());
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = reference[i] + searched_[i];
+    search_.search({x_, bodies_.triangles(), &bodies_.points(), bodies_.joined()}, options_.skin);
+    moved_ = 0;
+    ++n_searches_;
+    candidates_.assign(search_.candidates(), bodies_.triangles(), bodies_.joined());
+
+    if (!targets_.empty()) return;  // they are of this mesh
+    for (std::size_t t = 0; t < bodies_.triangles().size(); ++t) {
+        const TrianglePotential& potential = bodies_.potential(t);
+        targets_.push_back({potential.nodal, potential.bubble, potential.reach,
+                            bodies_.compliance(bodies_.body_of_node(bodies_.triangles()[t][0]))});
+    }
+    points_.clear();
+    const ContactorPoints& points = bodies_.points();
+    for (std::size_t p = 0; p < points.size(); ++p)
+        points_.push_back({points.weight_b[p], options_.thickness * points.length[p],
+                           bodies_.compliance(bodies_.body_of_node(points.a[p]))});
+}
+
+/// The pair alone, against a spring of stiffness k without friction.
+ContactResponse<double, double> Contact::alone(const ContactCandidate& pair, double k) const {
+    const auto nodes = nodes_of(pair);
+    const auto pick = [](std::span<const double> values, std::int32_t node) {
+        return Vec2<double>{values[2 * index(node)], values[2 * index(node) + 1]};
+    };
+    const TargetConstants& constants = targets_[index(pair.triangle)];
+    ContactTarget<double> target{{}, constants.nodal, constants.bubble, constants.reach};
+    std::array<Vec2<double>, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+        x[i] = pick(x_, nodes[2 + i]);
+        target.reference[i] = pick(bodies_.reference(), nodes[2 + i]);
+    }
+    return contact_response(pick(point_x_, pair.point), x, target, ContactLaw<double>{k, k, 0.0, 1.0},
+                            ContactHistory<double>{});
+}
+
+double Contact::largest_motion(std::span<const double> u) const {
+    double largest = 0;  // squared
+    for (std::size_t i = 0; i < searched_.size(); i += 2) {
+        const double dx = u[i] - searched_[i], dy = u[i + 1] - searched_[i + 1];
+        const double way = dx * dx + dy * dy;
+        largest = way <= largest ? largest : way;  // NaN stays
+    }
+    return std::sqrt(largest);
+}
+
+bool Contact::look(const State& accepted) {
+    const double moved = largest_motion(accepted.u), step = moved - moved_;
+    moved_ = moved;
+    // The next step may go as far as the last one, or a little further.
+    if (moved + 2 * std::max(step, 0.0) <= 0.5 * options_.skin) return false;
+    std::ranges::copy(std::span(accepted.u).first(searched_.size()), searched_.begin());
+    const std::vector<ContactCandidate> before = candidates_.pairs;
+    search();
+    return before != candidates_.pairs;
+}
+
+std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now) {
+    std::vector<std::array<std::int32_t, 3>> by_ends;
+    for (std::size_t p = 0; p < old.size(); ++p) by_ends.push_back({old.a[p], old.b[p], static_cast<std::int32_t>(p)});
+    std::ranges::sort(by_ends);
+    std::vector<std::int32_t> same;
+    for (std::size_t p = 0; p < now.size(); ++p) {
+        const auto found = std::ranges::lower_bound(by_ends, std::array{now.a[p], now.b[p], 0});
+        const bool there = found != by_ends.end() && (*found)[0] == now.a[p] && (*found)[1] == now.b[p];
+        same.push_back(there ? (*found)[2] : -1);
+    }
+    return same;
+}
+
+void Contact::follow(const Parting& parting, const State& accepted, std::vector<double>& history,
+                     PathEnergies& energies) {
+    const double before = stored(accepted.u, history);
+    const ContactorPoints old_points = bodies_.points();
+    const std::size_t n_old = old_points.size();
+    bodies_.follow(parting);
+    searched_.assign(accepted.u.begin(), accepted.u.end());
+    targets_.clear();
+    search();
+    if (remembers_) {
+        const ContactorPoints& points = bodies_.points();
+        std::vector<double> now(Memory::size(points.size()), 0.0);
+        const Memory memory(now, points.size());
+        const AcceptedMemory old(history, n_old);
+        memory.free_all();
+        memory.friction() = old.friction();
+        memory.restitution() = old.restitution();
+        const std::vector<std::int32_t> same = same_points(old_points, points);
+        for (std::size_t p = 0; p < points.size(); ++p)
+            for (std::size_t slot = 0; slot < contact_slots && same[p] >= 0; ++slot)
+                if (const std::size_t q = index(same[p]); old.triangle(q, slot) >= 0)
+                    memory.set(p, slot, old.triangle(q, slot), old.at(q, slot));
+        history = std::move(now);
+    }
+    energies.splitting += stored(accepted.u, history) - before;
+}
+
+std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair) const {
+    const auto& [i, j, k] = bodies_.triangles()[index(pair.triangle)];
+    return {bodies_.points().a[index(pair.point)], bodies_.points().b[index(pair.point)], i, j, k};
+}
+
+std::vector<std::array<std::int32_t, 2>> Contact::couplings() const {
+    std::vector<std::array<std::int32_t, 2>> all;
+    all.reserve(candidates_.pairs.size() * n_nodes * n_nodes);
+    for (const ContactCandidate& pair : candidates_.pairs) {
+        const auto nodes = nodes_of(pair);
+        for (const std::int32_t a : nodes)
+            for (const std::int32_t b : nodes) all.push_back({a, b});
+    }
+    return all;
+}
+
+// A pair in touch has the stiffness k (g w)(g w)^T, w = (1 - s, s, -lambda_0, -lambda_1, -lambda_2), and because the
+// magnitudes of w add up to 2, Cauchy's inequality bounds it by the diagonal matrix 2 k |g|^2 |w_j|. A central
+// difference evaluates its bound every so many steps: it must hold for contacts that begin before the next time. So
+// every contactor point counts as if it pressed with the stiffest partner, always, and a boundary node, as a target, as
+// if a surface of points lay along its edges, which gives it as much again; or what is in touch now, where that is
+// more: corners that gather in one triangle, several bodies in one. Left out: |g| above 1 in triangles compressed
+// later, and the change of g with the displacements, of relative size depth over element; both within the usual safety
+// factor.
+void Contact::bound_stiffness(std::span<const double> u) const {
+    const ContactorPoints& points = bodies_.points();
+    const std::size_t n = bodies_.n_nodes();
+    const double h = options_.thickness, least = bodies_.least_compliance();
+    const double factor =
+        1 / (options_.restitution * options_.restitution) + (options_.friction > 0 ? options_.tangential_factor : 0.0);
+    bound_.assign(n, 0.0);
+    target_bound_.assign(n, 0.0);
+    find_hits(u);
+    for (const std::int32_t hit : hits_) {
+        const ContactCandidate& pair = candidates_.pairs[index(hit)];
+        const auto nodes = nodes_of(pair);
+        const double w = points.weight_b[index(pair.point)], k = stiffness_of(pair);
+        const auto response = alone(pair, k);
+        if (response.depth == 0) continue;
+        const double g = std::sqrt(dot(response.force, response.force)) / (k * response.depth);
+        const double most = 2 * factor * k * g * g;
+        bound_[index(nodes[0])] += most * (1 - w);
+        bound_[index(nodes[1])] += most * w;
+        for (std::size_t j = 0; j < 3; ++j) target_bound_[index(nodes[2 + j])] += most * response.lambda[j];
+    }
+    std::vector<double> always(n, 0.0);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double most = 2 * factor * points_[p].area / (points_[p].layer + least);
+        always[index(points.a[p])] += most * (1 - points.weight_b[p]);
+        always[index(points.b[p])] += most * points.weight_b[p];
+    }
+    for (std::size_t node = 0; node < n; ++node) {
+        const double length = bodies_.boundary_length()[node];
+        const double as_target =
+            length > 0 ? 2 * factor * h * length /
+                             (bodies_.compliance(bodies_.body_of_node(static_cast<std::int32_t>(node))) + least)
+                       : 0.0;
+        bound_[node] = std::max(bound_[node], always[node]) + std::max(target_bound_[node], as_target);
+    }
+}
+
+double Contact::omega_squared(const Trial& trial, std::span<const double>, std::span<const double> lumped_mass) const {
+    bound_stiffness(trial.u);
+    double largest = 0;
+    for (std::size_t node = 0; node < bound_.size(); ++node)
+        largest = std::max(largest, bound_[node] / lumped_mass[2 * node]);
+    return largest;
+}
+
+void Contact::add_stiffness_bound(const Trial& trial, std::span<const double>, std::span<double> bound) const {
+    bound_stiffness(trial.u);
+    for (std::size_t node = 0; node < bound_.size(); ++node) {
+        bound[2 * node] += bound_[node];
+        bound[2 * node + 1] += bound_[node];
+    }
+}
+
+void Contact::add_stored(const Trial& accepted, std::span<const double> history, StoredEnergies& energies) const {
+    energies.contact += stored(accepted.u, history);
+}
+
+void Contact::add_dissipated(std::span<const double> from, std::span<const double> to, PathEnergies& energies) const {
+    if (!remembers_) return;
+    const AcceptedMemory before(from, bodies_.points().size()), after(to, bodies_.points().size());
+    energies.friction += after.friction() - before.friction();
+    energies.contact += after.restitution() - before.restitution();
+}
+
+std::vector<ContactOverlap> Contact::overlaps(std::span<const double> u, double tolerance) const {
+    std::vector<ContactOverlap> all;
+    find_hits(u);
+    for (const std::int32_t hit : hits_) {
+        const ContactCandidate& pair = candidates_.pairs[index(hit)];
+        const auto nodes = nodes_of(pair);
+        const Vec2<double> p{point_x_[2 * index(pair.point)], point_x_[2 * index(pair.point) + 1]};
+        const auto response = alone(pair, 1.0);
+        if (response.depth > tolerance)
+            all.push_back({bodies_.node_label(nodes[0]),
+                           bodies_.node_label(nodes[1]),
+                           bodies_.element_label(pair.triangle),
+                           {p.x, p.y},
+                           response.depth});
+    }
+    return all;
+}
+
+}  // namespace gneiss

@@ -1,0 +1,125 @@
+#pragma once
+// Contact of deformable bodies, and of the faces of a crack  [FORMULATION 6].
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contact/cell_search.hpp"
+#include "contact/contact_bodies.hpp"
+#include "contact/contact_memory.hpp"
+#include "contact/pair_packs.hpp"
+#include "model/interaction.hpp"
+
+namespace gneiss {
+
+/// A contactor point inside a body.
+struct ContactOverlap {
+    std::int64_t node, other_node;  ///< labels of the ends of the point's edge; equal for a point that is a node
+    std::int64_t element;           ///< label of the element that it is in
+    std::array<double, 2> at;       ///< m
+    double depth;                   ///< m
+};
+
+/// Deeper than this part of the shortest edge is no rounding of positions.
+inline constexpr double overlap_tolerance = 1e-6;
+
+/// For each point the one among the old that has the same ends: it has the same memory. -1: there is none. Where a node
+/// has been copied, the original keeps it.
+std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now);
+
+class Contact final : public Interaction {
+public:
+    struct Options {
+        double thickness = 1;          ///< of the solid, m, > 0
+        double friction = 0;           ///< mu, >= 0
+        double restitution = 1;        ///< e, in (0, 1]
+        double tangential_factor = 1;  ///< tangential stiffness over the normal one, > 0
+        double skin = 0;               ///< m, > 0: pairs are searched again once a node has moved half of it
+        /// @throws InputError
+        void validate() const;
+    };
+
+    /// Contact searches at once, in the reference shape.
+    Contact(const PartedMesh& start, std::span<const double> layers, double cap, const Options& options);
+
+    std::string name() const override { return "contact"; }
+    std::size_t n_history() const override { return remembers_ ? Memory::size(bodies_.points().size()) : 0; }
+    void initial_history(std::span<double> history) const override;
+    /// @throws RecoverableError if a point is deeper than its potential reaches, or a node has moved further than pairs
+    /// were searched for; the message names it and the time
+    void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
+                   std::span<double> updated) const override;
+    /// Displacements of the accepted state are those of the parted mesh already.
+    void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
+                PathEnergies& energies) override;
+    bool watches() const override { return true; }
+    bool look(const State& accepted) override;
+    std::vector<std::array<std::int32_t, 2>> couplings() const override;
+    /// Without friction it is the second derivative of an energy.
+    bool symmetric() const override { return options_.friction == 0; }
+    void stiffness(const Trial& trial, std::span<const double> history,
+                   std::span<ForceTerm::Stiffness> df_du) const override;
+    double omega_squared(const Trial& trial, std::span<const double> history,
+                         std::span<const double> lumped_mass) const override;
+    void add_stiffness_bound(const Trial& trial, std::span<const double> history,
+                             std::span<double> bound) const override;
+    void add_stored(const Trial& accepted, std::span<const double> history, StoredEnergies& energies) const override;
+    void add_dissipated(std::span<const double> from, std::span<const double> to,
+                        PathEnergies& energies) const override;
+
+    /// Points that are deeper than `tolerance` (m) inside a body, by ascending point.
+    std::vector<ContactOverlap> overlaps(std::span<const double> u, double tolerance) const;
+    const ContactBodies& bodies() const { return bodies_; }
+    const Options& options() const { return options_; }
+    // What the last evaluation met, and how often pairs were searched: for reports.
+    std::size_t n_candidates() const { return candidates_.pairs.size(); }
+    std::size_t n_touching() const { return hits_.size(); }
+    std::size_t n_searches() const { return n_searches_; }
+
+private:
+    using Memory = ContactMemory<double>;
+    using AcceptedMemory = ContactMemory<const double>;
+
+    void search();
+    double largest_motion(std::span<const double> u) const;
+    void find_hits(std::span<const double> u) const;
+    /// Which slot of its point each pair in touch has. @return energy of springs that nothing holds any more, J
+    double match(std::span<const double> history) const;
+    LoadedPairs load(std::size_t first, std::span<const double> history) const;
+    double stiffness_of(const ContactCandidate& pair) const;
+    ContactResponse<double, double> alone(const ContactCandidate& pair, double k) const;
+    std::size_t respond(std::span<const double> history, std::span<double> updated) const;
+    double stored(std::span<const double> u, std::span<const double> history) const;
+    void bound_stiffness(std::span<const double> u) const;
+    bool joined(std::int32_t triangle, std::int32_t other) const;
+    std::array<std::int32_t, 5> nodes_of(const ContactCandidate& pair) const;
+    [[noreturn]] void refuse_deep(const Trial& trial, std::size_t hit) const;
+
+    Options options_;
+    bool remembers_;
+    ContactBodies bodies_;
+    CellSearch search_;
+    CandidatePacks candidates_;
+    std::vector<double> searched_;  ///< displacements at the last search, m
+    std::size_t n_searches_ = 0;
+    double moved_ = 0;                      ///< largest way of a node since then, at the last look, m
+    std::vector<TargetConstants> targets_;  ///< by triangle
+    std::vector<PointConstants> points_;    ///< by contactor point
+
+    // scratch of one evaluation
+    mutable std::vector<double> x_, point_x_;               ///< current positions of nodes and points, m
+    mutable std::vector<std::vector<std::int32_t>> found_;  ///< candidates in touch, per range of packs
+    mutable std::vector<std::int32_t> hits_;                ///< candidates in touch, ascending
+    mutable std::vector<std::int8_t> slots_;                ///< per hit: of its point; -1: none was free
+    mutable std::vector<std::uint8_t> known_;               ///< per hit: whether the slot's history is its own
+    mutable std::vector<PairNumber> hit_nodes_;             ///< shape (packs of hits, 5, lanes)
+    mutable AlignedDoubles forces_;                         ///< N, shape (packs of hits, 10, lanes)
+    mutable AlignedDoubles stored_, slid_, lost_;           ///< J, per hit: stored; dissipated by friction, restitution
+    mutable std::vector<double> bound_, target_bound_;      ///< N/m, per node
+};
+
+}  // namespace gneiss

@@ -1,0 +1,173 @@
+#include "contact/contact_bodies.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "mesh/boundary.hpp"
+#include "mesh/sub_triangles.hpp"
+
+namespace gneiss {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+void append_originals(std::vector<std::int32_t>& original, std::span<const NodeCopy> copies) {
+    for (const NodeCopy& copy : copies) {
+        assert(copy.copy == static_cast<std::int32_t>(original.size()));
+        const std::int32_t first = original[index(copy.original)];
+        original.push_back(first);
+    }
+}
+
+std::vector<std::int32_t> originals(const PartedMesh& start) {
+    if (!start.original_of.empty()) return {start.original_of.begin(), start.original_of.end()};
+    std::vector<std::int32_t> original(start.mesh.n_nodes());
+    std::iota(original.begin(), original.end(), 0);
+    return original;
+}
+
+/// Triangles of a mesh, counter-clockwise.
+std::vector<std::array<std::int32_t, 3>> triangles_of(const Mesh& mesh) {
+    const auto subs = sub_triangles(mesh.kind);
+    std::vector<std::array<std::int32_t, 3>> all;
+    all.reserve(mesh.n_elements() * subs.size());
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e)
+        for (const SubTriangle& sub : subs) {
+            const SubTriangle local = mesh.kind == ElementKind::cst ? sub : counter_clockwise(sub);
+            const std::int32_t* nodes = mesh.element(e);
+            all.push_back({nodes[local[0]], nodes[local[1]], nodes[local[2]]});
+        }
+    return all;
+}
+
+}  // namespace
+
+Mesh ContactBodies::whole(const PartedMesh& start, std::span<const std::int32_t> original) {
+    const Mesh& mesh = start.mesh;
+    const std::size_t n = index(std::ranges::max(original)) + 1;
+    Mesh all;
+    all.kind = mesh.kind;
+    all.nodes.resize(n);
+    all.node_labels.resize(n);
+    for (std::size_t node = 0; node < mesh.n_nodes(); ++node) {
+        all.nodes[index(original[node])] = mesh.nodes[node];
+        all.node_labels[index(original[node])] = mesh.node_labels[node];
+    }
+    all.element_labels = mesh.element_labels;
+    all.connectivity.reserve(mesh.connectivity.size());
+    for (const std::int32_t node : mesh.connectivity) all.connectivity.push_back(original[index(node)]);
+    return all;
+}
+
+ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> layers, double cap)
+    : n_sub_(sub_triangles(start.mesh.kind).size()),
+      original_(originals(start)),
+      bonded_mesh_(whole(start, original_)),
+      original_connectivity_(bonded_mesh_.connectivity),
+      bonded_(bonded_mesh_),
+      potential_(bonded_mesh_.nodes, triangles_of(bonded_mesh_), cap) {
+    find_bodies(layers);
+    add_edges(contour(bonded_mesh_));
+    fail(start.failed);
+    refresh(start.mesh);
+}
+
+void ContactBodies::find_bodies(std::span<const double> layers) {
+    // nodes of one body have one root
+    std::vector<std::int32_t> root(bonded_mesh_.n_nodes());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::int32_t node) {
+        while (root[index(node)] != node) node = root[index(node)] = root[index(root[index(node)])];
+        return node;
+    };
+    for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e)
+        for (int k = 1; k < bonded_mesh_.nodes_per_element(); ++k) {
+            const auto [low, high] = std::minmax({find(bonded_mesh_.element(e)[0]), find(bonded_mesh_.element(e)[k])});
+            root[index(high)] = low;
+        }
+    body_of_original_.assign(root.size(), -1);
+    std::int32_t n_bodies = 0;
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(root.size()); ++node) {
+        const std::int32_t first = find(node);  // never higher than the node
+        body_of_original_[index(node)] = first == node ? n_bodies++ : body_of_original_[index(first)];
+    }
+    compliance_.assign(index(n_bodies), std::numeric_limits<double>::infinity());
+    for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e) {
+        double& least = compliance_[index(body_of_original_[index(bonded_mesh_.element(e)[0])])];
+        least = std::min(least, layers[e]);
+    }
+}
+
+double ContactBodies::least_compliance() const { return *std::ranges::min_element(compliance_); }
+
+void ContactBodies::add_edges(std::span<const BoundaryEdge> contour) {
+    std::vector<std::array<std::int32_t, 2>> added;
+    for (const BoundaryEdge& edge : contour) {
+        const std::span nodes(bonded_mesh_.element(index(edge.element)),
+                              static_cast<std::size_t>(bonded_mesh_.nodes_per_element()));
+        const auto local = [&](std::int32_t node) {
+            return static_cast<int>(std::ranges::find(nodes, node) - nodes.begin());
+        };
+        edges_.push_back({edge.element, local(edge.a), local(edge.b)});
+        added.push_back({edge.a, edge.b});
+    }
+    potential_.add_boundary(added);
+}
+
+void ContactBodies::fail(std::span<const std::int32_t> sides) {
+    if (sides.empty()) return;
+    std::vector<std::array<std::int32_t, 2>> added;
+    const auto n = static_cast<std::size_t>(bonded_mesh_.nodes_per_element());
+    for (const std::int32_t s : sides) {
+        if (bonded_.is_open(s)) continue;
+        const InnerSide& side = bonded_.sides()[index(s)];
+        for (const ElementSide& face : {side.left, side.right}) {
+            const auto local = side_nodes(bonded_mesh_.kind, face.side);
+            for (std::size_t k = 0; k + 1 < local.size(); ++k) {
+                edges_.push_back({face.element, local[k], local[k + 1]});
+                const std::int32_t* nodes = original_connectivity_.data() + n * index(face.element);
+                if (face.element == side.left.element) added.push_back({nodes[local[k]], nodes[local[k + 1]]});
+            }
+        }
+    }
+    bonded_.open(sides);
+    potential_.add_boundary(added);
+}
+
+void ContactBodies::follow(const Parting& parting) {
+    append_originals(original_, parting.copies);
+    fail(parting.failed);
+    refresh(parting.mesh);
+}
+
+void ContactBodies::refresh(const Mesh& mesh) {
+    assert(mesh.n_nodes() == original_.size());
+    triangles_ = triangles_of(mesh);
+    reference_.clear();
+    for (const auto& [x, y] : mesh.nodes) {
+        reference_.push_back(x);
+        reference_.push_back(y);
+    }
+    joined_.assign(mesh.n_nodes(), -1);
+    for (std::size_t k = 0; k < mesh.connectivity.size(); ++k)
+        joined_[index(mesh.connectivity[k])] = bonded_mesh_.connectivity[k];
+    std::vector<BoundaryEdge> boundary;
+    boundary.reserve(edges_.size());
+    for (const Edge& edge : edges_) {
+        const std::int32_t* nodes = mesh.element(index(edge.element));
+        boundary.push_back({nodes[edge.a], nodes[edge.b], edge.element});
+    }
+    points_ = contactor_points(boundary, mesh.nodes);
+    boundary_length_.assign(mesh.n_nodes(), 0);
+    shortest_edge_ = std::numeric_limits<double>::infinity();
+    for (const BoundaryEdge& edge : boundary) {
+        const double length = distance(mesh.nodes[index(edge.a)], mesh.nodes[index(edge.b)]);
+        shortest_edge_ = std::min(shortest_edge_, length);
+        for (const std::int32_t node : {edge.a, edge.b}) boundary_length_[index(node)] += 0.5 * length;
+    }
+}
+
+}  // namespace gneiss

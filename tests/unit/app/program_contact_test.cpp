@@ -1,0 +1,163 @@
+// A case of bodies that touch, from its deck to its results.
+
+#include <gmock/gmock.h>
+
+#include "unit/app/program.hpp"
+
+namespace gneiss {
+namespace {
+
+using test::Ended;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A square of 20 mm on another one.
+const std::string two_blocks = R"geo(DefineConstant[ gap = 0, n = 4 ];
+For i In {0:1}
+  y = i*(0.02 + gap);
+  p = newp; Point(p) = {0.003*i, y, 0};
+  Point(p + 1) = {0.003*i + 0.02, y, 0};
+  Point(p + 2) = {0.003*i + 0.02, y + 0.02, 0};
+  Point(p + 3) = {0.003*i, y + 0.02, 0};
+  c = newc;
+  For k In {0:3}
+    Line(c + k) = {p + k, p + (k + 1)%4};
+  EndFor
+  l = newll; Curve Loop(l) = {c, c + 1, c + 2, c + 3};
+  s = news; Plane Surface(s) = {l};
+  Transfinite Curve{c, c + 1, c + 2, c + 3} = n + 1 + i;
+  Transfinite Surface{s};
+  If (i == 0)
+    Physical Surface("lower") = {s};
+    Physical Curve("bottom") = {c};
+  Else
+    Physical Surface("upper") = {s};
+    Physical Curve("top") = {c + 2};
+  EndIf
+EndFor
+)geo";
+
+const std::string pressed_deck = R"toml(title = "one block dropped onto another"
+mesh = { file = "two.geo", parameters = { gap = 1e-5 } }
+solid = { plane = "strain" }
+run = { t_end = 2e-4, checkpoint = 1e-4 }
+output = { history = 1e-6, probes = [{ name = "p", at = [0.01, 0.03] }] }
+[[material]]
+density = 2500.0
+constants = { E = 1e9, nu = 0.2 }
+strength = { tensile = 4e6, cohesion = 1e7, friction = 0.6, residual_friction = 0.4, G_I = 20, G_II = 60 }
+[contact]
+method = "potential"
+friction = 0.4
+restitution = 0.9
+[[initial]]
+on = "upper"
+velocity = [0.3, -1.0]
+[[boundary]]
+on = "bottom"
+type = "fixed"
+)toml";
+
+const std::string static_deck = R"toml(title = "two blocks pressed together"
+mesh = { file = "two.geo" }
+solid = { plane = "strain" }
+run = { t_end = 1 }
+[[material]]
+density = 2500.0
+constants = { E = 1e9, nu = 0.2 }
+[contact]
+method = "potential"
+friction = 0.4
+[[boundary]]
+on = "bottom"
+type = "fixed"
+[[boundary]]
+on = "top"
+type = "displacement"
+value = [2e-6, -2e-5]
+amplitude = { type = "ramp", end = 1 }
+[integrator]
+type = "quasi_static"
+step = 0.25
+)toml";
+
+class ProgramContact : public test::ProgramTest {
+protected:
+    ProgramContact() {
+        put("two.geo", two_blocks);
+        put("case.toml", pressed_deck);
+    }
+    nlohmann::json energies(const std::vector<std::string>& more, const std::string& out) const {
+        std::vector<std::string> arguments{"run", "case.toml", "--quiet", "--out", out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ended ended = gneiss(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return summary(out)["energies_J"];
+    }
+    std::string refusal(const std::vector<std::string>& set) const {
+        std::vector<std::string> arguments{"run", "case.toml", "--quiet", "--set"};
+        arguments.insert(arguments.end(), set.begin(), set.end());
+        const Ended ended = gneiss(arguments);
+        EXPECT_EQ(ended.code, 2) << ended.err;
+        return ended.err;
+    }
+};
+
+TEST_F(ProgramContact, Dropped_StandsInItsColumnsAndBalances) {
+    for (const char* element : {"solid.element=cst", "solid.element=compt"}) {
+        const nlohmann::json found = energies({"--set", element}, "out");
+        EXPECT_GT(found["dissipated_friction"], 0) << element;
+        EXPECT_GT(found["dissipated_contact"], 0) << element;
+        EXPECT_LT(summary("out")["balance_error"], 5e-3) << element;
+    }
+    const nlohmann::json through = energies({"--set", "contact={ method = \"none\" }"}, "none");
+    EXPECT_EQ(through["dissipated_friction"], 0);
+    EXPECT_EQ(through["stored_contact"], 0);
+}
+
+TEST_F(ProgramContact, ThreadsAndRestarts_DoNotMoveABit) {
+    energies({"--threads", "1"}, "one");
+    energies({"--threads", "2"}, "two");
+    EXPECT_EQ(contents("one/history.csv"), contents("two/history.csv"));
+    energies({"--threads", "1", "--set", "run.t_end=1e-4"}, "parts");
+    energies({"--threads", "1", "--restart", "parts/checkpoint.h5"}, "parts");
+    EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
+}
+
+TEST_F(ProgramContact, WithJoints_BondedEdgesAreNotInTouch) {
+    const nlohmann::json found = energies({"--set", "fracture.method=intrinsic"}, "out");
+    EXPECT_GT(found["dissipated_friction"], 0);
+    EXPECT_LT(summary("out")["balance_error"], 1e-2);
+}
+
+TEST_F(ProgramContact, Pressed_StaticAndImplicit_Converge) {
+    put("case.toml", static_deck);
+    const nlohmann::json pressed = energies({}, "static");
+    EXPECT_GT(pressed["stored_contact"], 0);
+    EXPECT_LT(summary("static")["balance_error"], 0.02);  // four steps of the trapezoidal rule, the first touch a kink
+    put("case.toml", pressed_deck);
+    const nlohmann::json implicit =
+        energies({"--set", "integrator={ type = \"generalized_alpha\", dt = 1e-6 }"}, "implicit");
+    EXPECT_GT(implicit["dissipated_friction"], 0);
+}
+
+TEST_F(ProgramContact, Walls_HoldAndPush) {
+    const nlohmann::json found =
+        energies({"--set", "wall=[{ point = [0, 0.04002], normal = [0, -1], velocity = [0, -2] }]"}, "out");
+    EXPECT_GT(found["support_work"], 0);
+    EXPECT_LT(summary("out")["balance_error"], 5e-3);
+}
+
+TEST_F(ProgramContact, BadInput_IsNamed) {
+    EXPECT_THAT(refusal({"mesh.parameters.gap=-1e-4"}), HasSubstr("bodies overlap at the start: node"));
+    EXPECT_THAT(refusal({"contact={ method = \"potential\" }"}), HasSubstr("`contact.friction`"));
+    EXPECT_THAT(refusal({"contact={ skin = 0.2 }"}), HasSubstr("skin"));
+    EXPECT_THAT(refusal({"contact.restitution=1.5"}), HasSubstr("given 1.5, must be"));
+    EXPECT_THAT(refusal({"wall=[{ point = [0, 0.03], normal = [0, -1] }]"}),
+                AllOf(HasSubstr("[[wall]] 1"), HasSubstr("m into the wall at the start")));
+    EXPECT_THAT(refusal({"wall=[{ point = [0, 1], normal = [0, 0] }]"}),
+                HasSubstr("the normal of wall[0] has no length"));
+}
+
+}  // namespace
+}  // namespace gneiss
