@@ -84,8 +84,17 @@ Case build_case(CaseOptions options) {
     built.mesh = make_mesh(options.mesh, options.solid.compt, {}, &report);
     for (const std::string& warning : report.warnings) built.warnings.push_back("mesh: " + warning);
 
+    const bool jointed = options.fracture.method != FractureOptions::Method::none;
+    NamedSides named;
     std::vector<JointEdge> joints;
-    if (options.fracture.method != FractureOptions::Method::none) joints = open_all_sides(built.mesh);
+    if (jointed || !options.cracks.empty()) {
+        InnerSides inner(built.mesh);
+        named = named_sides(built.mesh, inner, options.cracks, options.interfaces);
+        if (jointed)
+            joints = open_all_sides(built.mesh, inner, named.cracked);
+        else
+            inner.open(named.cracked);
+    }
 
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
@@ -94,10 +103,11 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.constraints = make_constraints(built.mesh, options.boundaries); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(built.mesh, options.initial); });
     collect(problems, [&] { parts.damping.blocks = absorbing_damping(built.mesh, options, parts.blocks); });
-    if (options.fracture.method != FractureOptions::Method::none && !parts.blocks.empty())
+    if (jointed && !parts.blocks.empty())
         collect(problems, [&] {
             parts.interactions.push_back(make_cohesion(built.mesh, joints, parts.blocks, options.materials,
-                                                       options.solid, options.fracture, built.warnings));
+                                                       options.solid, options.fracture, options.interfaces, named,
+                                                       built.warnings));
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
@@ -109,13 +119,13 @@ Case build_case(CaseOptions options) {
         if (time > options.run.t_end)
             built.warnings.push_back(fmt::format(
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
-    if (options.fracture.method == FractureOptions::Method::none &&
-        std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
+    if (!jointed && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
         built.warnings.push_back("material.strength: has no effect without fracture.method");
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     built.system = std::make_unique<SolidSystem>(built.mesh, std::move(parts));
     built.reactions = ReactionTable(built.mesh, options.boundaries, built.system->constraints());
+    built.cracked_sides = std::move(named.cracked);
     built.options = std::move(options);
     return built;
 }

@@ -16,7 +16,9 @@ namespace gneiss {
 struct Case {
     CaseOptions options;
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< "mesh: …"
+    std::vector<std::string> warnings;        ///< "mesh: …"
+    std::vector<std::int32_t> cracked_sides;  ///< open from the start, ascending: numbers that InnerSides gave to the
+                                              ///< sides of the mesh before any was open
     std::unique_ptr<SolidSystem> system;
     std::unique_ptr<Integrator> integrator;
     ProbeTable probes;

@@ -32,7 +32,8 @@ test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula
     what.boundaries = {bottom, top};
     // one row of edges across the pull: a composite is four CST
     Mesh mesh = test::rectangle(compt, width, width, compt ? std::array{2, 2} : std::array{1, 1});
-    const std::vector<JointEdge> edges = open_all_sides(mesh);
+    InnerSides inner(mesh);
+    const std::vector<JointEdge> edges = open_all_sides(mesh, inner, {});
     const Mesh opened = mesh;
     FractureOptions fracture;
     fracture.method = method;
@@ -40,7 +41,7 @@ test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula
     return test::make_solid(std::move(mesh), what, [&](SolidSystem::Parts& parts) {
         std::vector<std::string> warnings;
         parts.interactions.push_back(
-            make_cohesion(opened, edges, parts.blocks, what.materials, what.solid, fracture, warnings));
+            make_cohesion(opened, edges, parts.blocks, what.materials, what.solid, fracture, {}, {}, warnings));
         EXPECT_TRUE(warnings.empty()) << warnings[0];
     });
 }
