@@ -90,10 +90,8 @@ Case build_case(CaseOptions options) {
     if (jointed || !options.cracks.empty()) {
         InnerSides inner(built.mesh);
         named = named_sides(built.mesh, inner, options.cracks, options.interfaces);
-        if (jointed)
-            joints = open_all_sides(built.mesh, inner, named.cracked);
-        else
-            inner.open(named.cracked);
+        open_cracks(built.mesh, inner, named.cracked);
+        if (jointed) joints = open_all_sides(built.mesh, inner, named.cracked);
     }
 
     std::vector<Problem> problems;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/errors.hpp"
+#include "mesh/boundary.hpp"
 #include "model/mesh_names.hpp"
 
 namespace gneiss {
@@ -111,6 +113,21 @@ NamedSides named_sides(const Mesh& mesh, const InnerSides& inner, const std::vec
     }
     if (!problems.empty()) throw InputError(std::move(problems));
     return named;
+}
+
+void open_cracks(Mesh& mesh, InnerSides& inner, std::span<const std::int32_t> cracked) {
+    std::set<std::int32_t> parted;
+    for (const NodeCopy& copy : inner.open(cracked)) {
+        parted.insert(copy.original);
+        parted.insert(copy.copy);
+    }
+    for (const auto& [name, edges] : mesh.boundaries) {
+        if (mesh.inner_lines.contains(name)) continue;  // in part inside: its nodes there are on no edge
+        const std::vector<std::int32_t> own = nodes_of(edges);
+        std::erase_if(mesh.node_sets[name], [&](std::int32_t node) {
+            return parted.contains(node) && !std::ranges::binary_search(own, node);
+        });
+    }
 }
 
 }  // namespace gneiss

@@ -2,6 +2,7 @@
 // Sides between elements that a user speaks of by name: cracks that are there before the run, interfaces.
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "mesh/inner_sides.hpp"
@@ -21,5 +22,10 @@ struct NamedSides {
 ///     claim
 NamedSides named_sides(const Mesh& mesh, const InnerSides& inner, const std::vector<CrackOptions>& cracks,
                        const std::vector<InterfaceOptions>& interfaces);
+
+/// Opens sides that nothing holds together. A boundary that ends at a crack's mouth keeps the nodes of its own side:
+/// those across the crack leave its set of nodes.
+/// @param inner  of the mesh, nothing open yet
+void open_cracks(Mesh& mesh, InnerSides& inner, std::span<const std::int32_t> cracked);
 
 }  // namespace gneiss

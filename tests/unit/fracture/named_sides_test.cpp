@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/boundary_parts.hpp"
 #include "mesh/make_mesh.hpp"
 
 namespace gneiss {
@@ -80,6 +82,20 @@ TEST_P(NamedSidesOf, SideClaimedTwice_NamesBoth) {
     EXPECT_THAT(error_of({}, {on("up"), between("left_half", "right_half")}),
                 AllOf(HasSubstr("[[interface]] 2: "), HasSubstr("to [[interface]] 1 on = \"up\"")));
     EXPECT_THAT(error_of({{"across"}, {"across"}}, {}), HasSubstr("[[crack]] 2"));
+}
+
+TEST_P(NamedSidesOf, CrackAtABoundary_PartsItsNodes) {
+    // the mouth of `up`, at (1, 0), is inside `bottom` and the end of `half`
+    const std::size_t before = mesh.node_sets.at("bottom").size(), of_left = mesh.node_sets.at("left").size();
+    BoundaryPart half{"half", "bottom", {0, 0}, {1, 0}};
+    name_parts(mesh, {half});
+    const std::size_t of_half = mesh.node_sets.at("half").size();
+    open_cracks(mesh, inner, named_sides(mesh, inner, {{"up"}}, {}).cracked);
+    EXPECT_EQ(mesh.node_sets.at("bottom").size(), before + 1);
+    EXPECT_EQ(mesh.node_sets.at("left").size(), of_left);
+    EXPECT_EQ(mesh.node_sets.at("half").size(), of_half) << "the node across the crack is not part of it";
+    EXPECT_EQ(mesh.node_sets.at("half"), nodes_of(mesh.boundaries.at("half")));
+    EXPECT_EQ(mesh.node_sets.at("up").size(), 2 * 5 - 1) << "both faces, and the tip";
 }
 
 TEST_P(NamedSidesOf, WrongNames_AreAllReported) {
