@@ -17,6 +17,7 @@ BOUNDS = {
     "joint_friction_elsewhere": Bound(1e-3, 1e-3),
     "dcb_load_error": Bound(0.05, 0.05),
     "dcb_load_error_dynamic": Bound(0.05, 0.05),
+    "dcb_crack_reached_over_h": Bound(19.0, 8.5, "the crack is not followed further", at_least=True),
     # what is left: dispersion of the pulse, of other size with other speeds
     "intrinsic_speed_series_difference_max": Bound(2e-3, 2e-3),
     "brazilian_center_stress_error": Bound(0.05, 0.05),
