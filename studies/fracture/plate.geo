@@ -1,6 +1,8 @@
 // A plate with a straight notch from its left side, in the middle of its height or elsewhere: width x height, lower left corner at
 // the origin, notch from (0, at) to (length, at). Elements of edge `size` all over.
-DefineConstant[ width = 0.1, height = 0.04, at = 0.02, length = 0.05, size = 0.002 ];
+DefineConstant[ width = 0.1, height = 0.04, at = 0.02, length = 0.05, size = 0.002, algorithm = 5 ];
+// 5: Delaunay, irregular; the default one makes lattices of equal triangles, along which cracks like to run.
+Mesh.Algorithm = algorithm;
 Point(1) = {0, 0, 0, size};
 Point(2) = {width, 0, 0, size};
 Point(3) = {width, height, 0, size};
