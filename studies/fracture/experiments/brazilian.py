@@ -160,10 +160,13 @@ def draw(measured: dict, figures: Path) -> None:
     from matplotlib.collections import LineCollection
 
     broken = measured["broken"]
-    figure, panels = style.plt.subplots(1, 1 + len(broken), figsize=(style.FULL_WIDTH, 2.7))
+    names = {"brazilian-cst": "CST", "brazilian-compt": "COMPT", "brazilian-compt-free": "COMPT, free mesh"}
+    rows = 1 if len(broken) == 1 else 2
+    figure, panels = style.plt.subplots(rows, 2, figsize=(style.FULL_WIDTH, 2.8 * rows))
+    panels = panels.ravel()
     for (name, found), colour in zip(broken.items(), style.CYCLE):
         panels[0].plot(np.array(found["t"]) * 1e6, 2 * np.array(found["force"]) / (np.pi * 2 * RADIUS) / STRENGTH["tensile"],
-                       color=colour, label=name.removeprefix("brazilian-").upper())
+                       color=colour, label=names[name])
     panels[0].axhspan(0.85, 1.15, color="0.93", zorder=0)
     panels[0].set(xlabel="time [µs]", ylabel="2P/(πDh) over tensile strength")
     panels[0].legend()
@@ -178,5 +181,5 @@ def draw(measured: dict, figures: Path) -> None:
         panel.set_aspect("equal")
         panel.grid(False)
         panel.set(xlabel="x [mm]", ylabel="y [mm]")
-        style.panel_label(panel, f"{letter}) {name.removeprefix('brazilian-').upper()}, {found['frame'] * 1e6:.0f} µs")
+        style.panel_label(panel, f"{letter}) {names[name]}, " + (f"{found['frame'] * 1e6:.0f} µs" if found["segments"] else "not split"))
     style.save(figure, figures / "brazilian.png")
