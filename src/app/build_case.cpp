@@ -107,10 +107,16 @@ Case build_case(CaseOptions options) {
 
     const bool cracks = options.fracture.method != FractureOptions::Method::none;
     const bool extrinsic = options.fracture.method == FractureOptions::Method::extrinsic;
+    NamedSides named;
     std::vector<JointEdge> edges;
-    if (cracks) {
+    if (cracks || !options.cracks.empty()) {
         built.inner = std::make_unique<InnerSides>(*built.mesh);
-        edges = extrinsic ? all_edges(*built.mesh, *built.inner) : open_all_sides(*built.mesh, *built.inner);
+        named = named_sides(*built.mesh, *built.inner, options.cracks, options.interfaces);
+        open_cracks(*built.mesh, *built.inner, named.cracked);
+        if (cracks && !extrinsic) open_all_sides(*built.inner);
+        // sides that open under way look up their properties by their numbers, those of cracks included
+        if (cracks)
+            edges = all_edges(*built.mesh, *built.inner, extrinsic ? std::vector<std::int32_t>{} : named.cracked);
     }
 
     std::vector<Problem> problems;
@@ -124,8 +130,8 @@ Case build_case(CaseOptions options) {
     std::vector<CohesionProperties<double>> properties;
     if (cracks && !parts.blocks.empty())
         collect(problems, [&] {
-            properties =
-                edge_properties(*built.mesh, edges, parts.blocks, options.materials, options.fracture, built.warnings);
+            properties = edge_properties(*built.mesh, edges, parts.blocks, options.materials, options.fracture,
+                                         options.interfaces, named, built.warnings);
             if (extrinsic) {
                 watch_strength(edges, properties, parts.blocks);
                 joints = make_extrinsic_joints(*built.inner, properties, options.solid.thickness);
@@ -140,7 +146,8 @@ Case build_case(CaseOptions options) {
     if (contact && !parts.blocks.empty())
         collect(problems, [&] {
             const auto original_of = built.inner ? built.inner->original_of() : std::span<const std::int32_t>{};
-            auto bodies = make_contact({*built.mesh, original_of}, parts.blocks, options.solid, options.contact);
+            auto bodies =
+                make_contact({*built.mesh, original_of, named.cracked}, parts.blocks, options.solid, options.contact);
             auto walls = options.walls.empty() ? nullptr : make_walls(*bodies, options.walls, options.contact.friction);
             contacts.push_back(std::move(bodies));
             if (walls) contacts.push_back(std::move(walls));

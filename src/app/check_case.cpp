@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ostream>
+#include <set>
 
 #include "app/build_case.hpp"
 #include "app/schedule.hpp"
@@ -130,7 +131,11 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("area", fmt::format("{:.6g} m2", size.area));
     line("regions", fmt::format("{}", fmt::join(mesh.region_names, ", ")));
     line("boundaries", names_of(mesh.boundaries, decltype(mesh.boundaries){}));
-    line("points", names_of(mesh.node_sets, mesh.boundaries));
+    line("inner lines", names_of(mesh.inner_lines, decltype(mesh.inner_lines){}));
+    std::set<std::string> lines;
+    for (const auto& [name, unused] : mesh.boundaries) lines.insert(name);
+    for (const auto& [name, unused] : mesh.inner_lines) lines.insert(name);
+    line("points", names_of(mesh.node_sets, lines));
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
     if (built.integrator->is_static())

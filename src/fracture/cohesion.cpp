@@ -33,37 +33,67 @@ CohesionProperties<double> weaker(CohesionProperties<double> a, const CohesionPr
 
 std::string place(std::size_t material) { return fmt::format("[[material]] {}", material + 1); }
 
-}  // namespace
+/// Where a user speaks about the strength of an edge.
+struct StrengthOf {
+    std::array<const StrengthOptions*, 2> sides;  ///< of the left and the right element; null: none is given
+    std::array<std::string, 2> places;
+};
 
-std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner) {
-    std::vector<std::int32_t> all(inner.sides().size());
-    std::iota(all.begin(), all.end(), 0);
-    return joint_edges(mesh, inner, all);
+/// @param materials_of  numbers of the materials on both sides
+StrengthOf strength_of_edge(const JointEdge& edge, std::array<std::size_t, 2> materials_of,
+                            const std::vector<MaterialOptions>& materials,
+                            const std::vector<InterfaceOptions>& interfaces, const NamedSides& named) {
+    if (const auto found = named.interface_of.find(edge.side); found != named.interface_of.end()) {
+        const std::string there = fmt::format("[[interface]] {}", found->second + 1);
+        const StrengthOptions* own = &interfaces[found->second].strength;
+        return {{own, own}, {there, there}};
+    }
+    StrengthOf of;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto& strength = materials[materials_of[k]].strength;
+        of.sides[k] = strength ? &*strength : nullptr;
+        of.places[k] = place(materials_of[k]);
+    }
+    return of;
 }
 
-std::vector<JointEdge> open_all_sides(Mesh& mesh, InnerSides& inner) {
+}  // namespace
+
+std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> cracked) {
+    std::vector<std::int32_t> all(inner.sides().size()), whole;
+    std::iota(all.begin(), all.end(), 0);
+    std::ranges::set_difference(all, cracked, std::back_inserter(whole));
+    return joint_edges(mesh, inner, whole);
+}
+
+void open_all_sides(InnerSides& inner) {
     std::vector<std::int32_t> all(inner.sides().size());
     std::iota(all.begin(), all.end(), 0);
     inner.open(all);
     inner.renumber();
-    return all_edges(mesh, inner);
-}
-
-std::vector<JointEdge> open_all_sides(Mesh& mesh) {
-    InnerSides inner(mesh);
-    return open_all_sides(mesh, inner);
 }
 
 std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::span<const JointEdge> edges,
                                                         std::span<const std::unique_ptr<ElementBlock>> blocks,
                                                         const std::vector<MaterialOptions>& materials,
                                                         const FractureOptions& fracture,
-                                                        std::vector<std::string>& warnings) {
+                                                        const std::vector<InterfaceOptions>& interfaces,
+                                                        const NamedSides& named, std::vector<std::string>& warnings) {
     std::vector<Problem> problems;
     const std::vector<std::int32_t> material_of = material_of_elements(mesh, materials);
-    for (std::size_t m = 0; m < materials.size(); ++m)
-        if (!materials[m].strength && std::ranges::find(material_of, static_cast<std::int32_t>(m)) != material_of.end())
-            problems.push_back({place(m), "`strength` is missing, which [fracture] needs"});
+    const auto materials_of = [&](const JointEdge& edge) {
+        const auto of = [&](std::int32_t e) {
+            return static_cast<std::size_t>(material_of[static_cast<std::size_t>(e)]);
+        };
+        return std::array{of(edge.left), of(edge.right)};
+    };
+    std::set<std::string> without;
+    for (const JointEdge& edge : edges) {
+        const StrengthOf of = strength_of_edge(edge, materials_of(edge), materials, interfaces, named);
+        for (std::size_t k = 0; k < 2; ++k)
+            if (of.sides[k] == nullptr && without.insert(of.places[k]).second)
+                problems.push_back({of.places[k], "`strength` is missing, which [fracture] needs"});
+    }
     const std::optional<WeibullScatter> scatter =
         fracture.weibull_modulus > 0
             ? std::optional(WeibullScatter{fracture.weibull_modulus, static_cast<std::uint64_t>(fracture.seed)})
@@ -85,6 +115,7 @@ std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::s
         std::array<CohesionProperties<double>, 2> sides;
         double modulus = std::numeric_limits<double>::infinity();
         const std::array<std::int32_t, 2> elements{edge.left, edge.right};
+        const StrengthOf strength = strength_of_edge(edge, materials_of(edge), materials, interfaces, named);
         for (std::size_t k = 0; k < 2; ++k) {
             const auto e = static_cast<std::size_t>(elements[k]);
             const PlaneStiffness& of = stiffness[e];
@@ -92,7 +123,7 @@ std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::s
             const SymmetricMatrix gamma = christoffel_matrix(of, n);
             const double across = dot(n, gamma * n);
             modulus = std::min(modulus, across);
-            sides[k] = strength_of(*materials[static_cast<std::size_t>(material_of[e])].strength)
+            sides[k] = strength_of(*strength.sides[k])
                            .properties(along, {std::cos(of.axis_angle), std::sin(of.axis_angle)},
                                        fracture.penalty * across / length);
         }
@@ -104,10 +135,8 @@ std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::s
             for (const Problem& problem : error.problems())
                 if (refused.insert(problem.message.substr(0, problem.message.find(' '))).second)
                     problems.push_back(
-                        {place(static_cast<std::size_t>(material_of[static_cast<std::size_t>(edge.left)])) +
-                             " strength",
-                         fmt::format("{} (an edge of {:.3g} m, penalty {:.3g} Pa/m)", problem.message, length,
-                                     properties.penalty)});
+                        {strength.places[0] + " strength", fmt::format("{} (an edge of {:.3g} m, penalty {:.3g} Pa/m)",
+                                                                       problem.message, length, properties.penalty)});
         }
         if (const double l_ch = cohesion_length(properties.fracture_energy_i, modulus, properties.tensile_strength);
             l_ch < length) {

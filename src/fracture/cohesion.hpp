@@ -7,34 +7,37 @@
 #include <vector>
 
 #include "fracture/joints.hpp"
+#include "fracture/named_sides.hpp"
 #include "mesh/inner_sides.hpp"
 #include "model/element_block.hpp"
 #include "model/options.hpp"
 
 namespace gneiss {
 
-/// Opens every inner side: elements have nodes of their own.
-/// @return the sub-edges between them
-std::vector<JointEdge> open_all_sides(Mesh& mesh);
-std::vector<JointEdge> open_all_sides(Mesh& mesh, InnerSides& inner);
+/// Opens every inner side and numbers nodes anew: elements have nodes of their own.
+void open_all_sides(InnerSides& inner);
 
-/// Sub-edges of every inner side, opened or not.
-std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner);
+/// Sub-edges of every inner side but some, opened or not.
+/// @param cracked  numbers of those left out, ascending
+std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> cracked = {});
 
-/// What holds these edges together. Where two materials meet, or axes differ, each property is the smaller one of the
-/// two sides. The scatter of an edge depends on the number of its inner side alone, for both sub-edges of a composite's
-/// side.
+/// What holds these edges together: the strengths of their interface or else of their materials. Where two materials
+/// meet, or axes differ, each property is the smaller one of the two sides. The scatter of an edge depends on the
+/// number of its inner side alone, for both sub-edges of a composite's side.
 /// @param blocks         of the mesh
+/// @param interfaces     with which sides belong to them
 /// @param[out] warnings  edges longer than the length over which cracks soften
-/// @throws InputError with every problem: materials without strength, properties that the law cannot take
+/// @throws InputError with every problem: materials without strength on edges that no interface claims, properties that
+///     the law cannot take
 std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::span<const JointEdge> edges,
                                                         std::span<const std::unique_ptr<ElementBlock>> blocks,
                                                         const std::vector<MaterialOptions>& materials,
                                                         const FractureOptions& fracture,
-                                                        std::vector<std::string>& warnings);
+                                                        const std::vector<InterfaceOptions>& interfaces,
+                                                        const NamedSides& named, std::vector<std::string>& warnings);
 
 /// Joints on edges that are there from the start.
-/// @param edges       of open_all_sides()
+/// @param edges       of the opened mesh
 /// @param properties  of edge_properties()
 std::unique_ptr<Joints> make_cohesion(const Mesh& mesh, std::span<const JointEdge> edges,
                                       std::span<const CohesionProperties<double>> properties,

@@ -8,12 +8,6 @@
 
 namespace gneiss {
 
-/// One of the three sides of an element: from its corner `side` to the next one, counter-clockwise.
-struct ElementSide {
-    std::int32_t element;
-    int side;  ///< 0 to 2
-};
-
 /// Where two elements touch.
 struct InnerSide {
     ElementSide left, right;  ///< left.element < right.element; each walks the side in its own direction

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -12,6 +13,7 @@
 #include "mesh/composite.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "mesh/inner_lines.hpp"
 
 namespace gneiss {
 namespace {
@@ -45,6 +47,28 @@ std::vector<BoundaryEdge> edges_along(const std::vector<std::array<std::int32_t,
     return in_walking_order(edges);
 }
 
+/// The sides along each line that are not on the contour.
+std::map<std::string, std::vector<ElementSide>> sides_inside(const Mesh& composites, const MeshDraft& draft,
+                                                             const std::map<NodePair, BoundaryEdge>& contour_edges) {
+    std::map<NodePair, std::set<std::string>> names_of;  // by the corners of a side
+    for (const auto& [name, line] : draft.lines)
+        for (const auto& [from, mid, to] : line)
+            if (!contour_edges.contains(NodePair(std::minmax(from, mid))))
+                names_of[NodePair(std::minmax(from, to))].insert(name);
+    std::map<std::string, std::vector<ElementSide>> inside;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(composites.n_elements()) && !names_of.empty(); ++e) {
+        const std::int32_t* nodes = composites.element(static_cast<std::size_t>(e));
+        for (int side = 0; side < 3; ++side) {
+            const auto& local = composite_sides[static_cast<std::size_t>(side)];
+            const auto found = names_of.find(NodePair(std::minmax(nodes[local.front()], nodes[local.back()])));
+            if (found == names_of.end()) continue;
+            for (const std::string& name : found->second) inside[name].push_back({e, side});
+            names_of.erase(found);  // the element across it has the higher number
+        }
+    }
+    return inside;
+}
+
 std::vector<std::int32_t> ascending(std::vector<std::int32_t> nodes) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -61,16 +85,37 @@ void name_boundaries(Mesh& mesh, const MeshDraft& draft, MeshReport& report) {
         mesh.node_sets[name] = ascending(std::move(nodes));
         const std::vector<BoundaryEdge> edges = edges_along(line, contour_edges);
         if (!edges.empty()) mesh.boundaries[name] = edges;
-        if (nodes_of(edges).size() < mesh.node_sets[name].size())
+        if (!edges.empty() && nodes_of(edges).size() < mesh.node_sets[name].size())
             report.warnings.push_back(
-                fmt::format("curve \"{}\" runs inside the solid{}: it can hold nodes there, but no traction", name,
-                            edges.empty() ? "" : " in part"));
+                fmt::format("curve \"{}\" runs inside the solid in part: tractions act on the rest of it alone, "
+                            "cracks and interfaces on that part",
+                            name));
     }
+    mesh.inner_lines = sides_inside(mesh, draft, contour_edges);
     for (const auto& [name, nodes] : draft.points) mesh.node_sets[name] = ascending(nodes);
     if (mesh.node_sets.count("boundary") == 0) {
         mesh.boundaries["boundary"] = whole;
         mesh.node_sets["boundary"] = nodes_of(whole);
     }
+}
+
+/// The two sides of sub-triangles that each side of a composite becomes.
+std::vector<ElementSide> sides_of_sub_triangles(const Mesh& composites, const Mesh& triangles,
+                                                const std::vector<ElementSide>& sides) {
+    std::vector<ElementSide> split;
+    for (const auto& [element, side] : sides) {
+        const std::int32_t* nodes = composites.element(static_cast<std::size_t>(element));
+        const auto& local = composite_sides[static_cast<std::size_t>(side)];
+        for (std::int32_t cst = sub_triangles_per_composite * element;
+             cst < sub_triangles_per_composite * (element + 1); ++cst) {
+            const std::int32_t* corners = triangles.element(static_cast<std::size_t>(cst));
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t half = 0; half < 2; ++half)
+                    if (corners[k] == nodes[local[half]] && corners[(k + 1) % 3] == nodes[local[half + 1]])
+                        split.push_back({cst, k});
+        }
+    }
+    return split;
 }
 
 }  // namespace
@@ -82,6 +127,7 @@ Mesh make_mesh(const MeshOptions& options, bool compt, const std::filesystem::pa
     MeshReport own;
     Mesh mesh = finish(std::move(draft), compt, report ? *report : own);
     name_parts(mesh, options.parts);
+    name_lines(mesh, options.lines);
     return mesh;
 }
 
@@ -138,6 +184,7 @@ Mesh split_composites(const Mesh& composites) {
                     break;
                 }
             }
+    for (auto& [name, sides] : mesh.inner_lines) sides = sides_of_sub_triangles(composites, mesh, sides);
     return mesh;
 }
 

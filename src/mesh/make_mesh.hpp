@@ -18,7 +18,8 @@ struct MeshReport {
 
 /// The mesh that the options describe: made or read, checked (check.hpp), renumbered for locality (renumber() of
 /// draft.hpp). Besides the boundaries that have names, "boundary" is the whole contour, unless the file uses this name.
-/// A boundary consists of contour edges only; a named line inside the solid has nodes, no edges, and is warned of.
+/// A boundary consists of contour edges only; the sides of a named line inside the solid are in inner_lines. A line
+/// that is both is warned of.
 /// @param compt     false: CST by split_composites(), on the same nodes
 /// @param base_dir  where a relative file name starts
 /// @param report    filled if given
@@ -31,7 +32,7 @@ Mesh finish(MeshDraft draft, bool compt, MeshReport& report);
 
 /// The same mesh with every composite cut into its four sub-triangles: composite e becomes CST 4e to 4e+3, in the order
 /// of composite.hpp, counter-clockwise, each with the region, the data and the label of its composite. Nodes,
-/// boundaries and node sets stay; the elements of boundary edges become the CST that they belong to.
+/// boundaries and node sets stay; the elements of boundary edges and of inner lines become the CST that they belong to.
 /// @param composites  of kind compt
 Mesh split_composites(const Mesh& composites);
 

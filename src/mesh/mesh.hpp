@@ -19,6 +19,12 @@ struct BoundaryEdge {
     std::int32_t element;  ///< the element that the edge belongs to
 };
 
+/// One of the three sides of an element: from its corner `side` to the next one, counter-clockwise.
+struct ElementSide {
+    std::int32_t element;
+    int side;  ///< 0 to 2
+};
+
 /// A plane mesh. Node and element numbers are 0-based positions in the arrays below; labels keep what the
 /// user's file called them, for messages.
 struct Mesh {
@@ -32,8 +38,10 @@ struct Mesh {
 
     std::map<std::string, std::vector<BoundaryEdge>> boundaries;  ///< edges by name, in walking order where they chain
     std::map<std::string, std::vector<std::int32_t>>
-        node_sets;                                            ///< nodes by name, ascending; every boundary has its own
-    std::map<std::string, std::vector<double>> element_data;  ///< numbers per element read from the mesh file
+        node_sets;  ///< nodes by name, ascending; every boundary has its own
+    std::map<std::string, std::vector<ElementSide>> inner_lines;  ///< sides inside the solid by name, ascending, each
+                                                                  ///< named once, by the element with the lower number
+    std::map<std::string, std::vector<double>> element_data;      ///< numbers per element read from the mesh file
 
     std::vector<std::int64_t> node_labels;     ///< what the file called each node; 1-based numbers for generated meshes
     std::vector<std::int64_t> element_labels;  ///< likewise for elements; the CST of one composite share its label

@@ -92,6 +92,15 @@ void validate_parts(std::vector<Problem>& problems, const std::vector<BoundaryPa
     }
 }
 
+void validate_lines(std::vector<Problem>& problems, const std::vector<InnerLine>& lines) {
+    for (const InnerLine& line : lines)
+        if (const double length = std::hypot(line.to[0] - line.from[0], line.to[1] - line.from[1]);
+            !(length > 0 && std::isfinite(length)))
+            problems.push_back({fmt::format("mesh.lines `{}`", line.name),
+                                fmt::format("from = [{}, {}] to = [{}, {}] must be a line of some length", line.from[0],
+                                            line.from[1], line.to[0], line.to[1])});
+}
+
 }  // namespace
 
 double expected_composites(const MeshOptions& options) {
@@ -129,6 +138,7 @@ std::vector<Problem> validate(const MeshOptions& options) {
             break;
     }
     validate_parts(problems, options.parts);
+    validate_lines(problems, options.lines);
     if (problems.empty()) {
         const double n = expected_composites(options);
         if (!(n <= max_composites))

@@ -19,6 +19,12 @@ struct BoundaryPart {
     std::array<double, 2> to{0, 0};    ///< upper right corner, m, not below `from`
 };
 
+/// A straight line of sides inside the solid that gets a name.
+struct InnerLine {
+    std::string name;
+    std::array<double, 2> from{0, 0}, to{0, 0};  ///< its ends, m, not in one place
+};
+
 /// Where the mesh comes from: a file, or one of the built-in generators. SI units.
 struct MeshOptions {
     enum class Source { file, rectangle, quadrilateral, plate_with_hole };
@@ -45,6 +51,7 @@ struct MeshOptions {
     int seed = 0;                      ///< moves the first point of the hole's division, so that free meshes differ
 
     std::vector<BoundaryPart> parts;
+    std::vector<InnerLine> lines;
 
     bool curved = true;  ///< mid-side nodes on a curved boundary follow it; false: all sides straight
 };

@@ -22,7 +22,7 @@ bool is_region(const Mesh& mesh, const std::string& name) {
     return std::find(mesh.region_names.begin(), mesh.region_names.end(), name) != mesh.region_names.end();
 }
 
-/// @param wanted  "boundary", "nodes", "region": what the name should have been
+/// @param wanted  "boundary", "nodes", "region", "line inside the solid": what the name should have been
 InputError unknown_name(const Mesh& mesh, const std::string& name, const std::string& wanted,
                         const std::vector<std::string>& names) {
     std::string message = fmt::format("on = \"{}\": ", name);
@@ -30,6 +30,8 @@ InputError unknown_name(const Mesh& mesh, const std::string& name, const std::st
         message += fmt::format("this is a region, needed: {}", wanted);
     } else if (mesh.boundaries.contains(name)) {
         message += fmt::format("this is a boundary, needed: {}", wanted);
+    } else if (mesh.inner_lines.contains(name)) {
+        message += fmt::format("this is a line inside the solid, needed: {}", wanted);
     } else if (mesh.node_sets.contains(name)) {
         message += fmt::format("these are nodes, needed: {}", wanted);
     } else {
@@ -59,6 +61,13 @@ std::vector<std::int32_t> nodes_of(const Mesh& mesh, const std::vector<std::int3
 const std::vector<BoundaryEdge>& boundary_named(const Mesh& mesh, const std::string& name) {
     const auto found = mesh.boundaries.find(name);
     if (found == mesh.boundaries.end()) throw unknown_name(mesh, name, "boundary", keys(mesh.boundaries));
+    return found->second;
+}
+
+const std::vector<ElementSide>& inner_line_named(const Mesh& mesh, const std::string& name) {
+    const auto found = mesh.inner_lines.find(name);
+    if (found == mesh.inner_lines.end())
+        throw unknown_name(mesh, name, "line inside the solid", keys(mesh.inner_lines));
     return found->second;
 }
 

@@ -13,6 +13,8 @@ namespace gneiss {
 // whether the name belongs to something else, lists the names there are, and suggests the one that was probably meant.
 
 const std::vector<BoundaryEdge>& boundary_named(const Mesh& mesh, const std::string& name);
+/// A line of sides inside the solid.
+const std::vector<ElementSide>& inner_line_named(const Mesh& mesh, const std::string& name);
 /// Nodes of a set or of a boundary, ascending.
 const std::vector<std::int32_t>& nodes_named(const Mesh& mesh, const std::string& name);
 /// Numbers of the elements of a region, ascending.

@@ -94,6 +94,18 @@ struct FractureOptions {
     int seed = 0;                ///< of the scatter, >= 0
 };
 
+/// A line of sides that is open from the start.
+struct CrackOptions {
+    std::string on;  ///< name of a line inside the solid
+};
+
+/// Sides with strengths of their own.
+struct InterfaceOptions {
+    std::string on;                    ///< name of a line inside the solid; or
+    std::vector<std::string> between;  ///< two regions: the sides where they meet
+    StrengthOptions strength;          ///< in place of the materials'; directions are those of their axes
+};
+
 // ---- contact --------------------------------------------------------------------------------------------------------
 
 struct ContactOptions {
@@ -213,6 +225,8 @@ struct CaseOptions {
     FractureOptions fracture;
     ContactOptions contact;
     std::vector<WallOptions> walls;
+    std::vector<CrackOptions> cracks;
+    std::vector<InterfaceOptions> interfaces;
     IntegratorOptions integrator;
     RunOptions run;
     OutputOptions output;

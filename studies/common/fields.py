@@ -38,8 +38,27 @@ def frame_path(folder: Path, t: float, tolerance: float) -> Path:
     return Path(folder) / name
 
 
+@dataclass
+class Grid:
+    """One .vtu as it is: points (n, 2) m, cells by VTK's numbers of their types, arrays by name."""
+
+    points: Array
+    connectivity: NDArray[np.int64]
+    types: NDArray[np.int64]
+    point_data: dict[str, Array]
+    cell_data: dict[str, Array]
+
+
 def read_frame(path: Path) -> Frame:
-    """Reads a .vtu of linear triangles: VTK's XML format with its data appended raw, compressed by zlib.
+    """Reads a .vtu of linear triangles."""
+    grid = read_vtu(path)
+    if not np.all(grid.types == 5):
+        raise ValueError(f"{path}: holds other cells than linear triangles")
+    return Frame(grid.points, grid.connectivity.reshape(-1, 3), grid.point_data, grid.cell_data)
+
+
+def read_vtu(path: Path) -> Grid:
+    """Reads a .vtu: VTK's XML format with its data appended raw, compressed by zlib.
 
     (meshio 5.0 does not read raw appended data, which is no well-formed XML.)
     """
@@ -69,10 +88,8 @@ def read_frame(path: Path) -> Frame:
         return {e.attrib["Name"]: array(e) for e in head.iterfind(f".//{parent}/DataArray")}
 
     cells = arrays("Cells")
-    if not np.all(cells["types"] == 5):
-        raise ValueError(f"{path}: holds other cells than linear triangles")
     points = array(head.find(".//Points/DataArray"))[:, :2]
-    return Frame(points, cells["connectivity"].reshape(-1, 3), arrays("PointData"), arrays("CellData"))
+    return Grid(points, cells["connectivity"], cells["types"], arrays("PointData"), arrays("CellData"))
 
 
 def sample_on_grid(points: Array, triangles: NDArray[np.int64], values: Array, x: Array, y: Array) -> Array:

@@ -34,12 +34,11 @@ void cracking_step(::benchmark::State& state, bool compt, Method method) {
     std::vector<std::string> warnings;
     std::unique_ptr<Joints> joints;
     std::vector<CohesionProperties<double>> properties;
-    const std::vector<JointEdge> edges = method == Method::none        ? std::vector<JointEdge>{}
-                                         : method == Method::extrinsic ? all_edges(mesh, inner)
-                                                                       : open_all_sides(mesh, inner);
+    if (method == Method::intrinsic) open_all_sides(inner);
+    const std::vector<JointEdge> edges = all_edges(mesh, inner);
     parts.blocks = make_blocks(mesh, solid, {material});
     if (method != Method::none) {
-        properties = edge_properties(mesh, edges, parts.blocks, {material}, fracture, warnings);
+        properties = edge_properties(mesh, edges, parts.blocks, {material}, fracture, {}, {}, warnings);
         if (method == Method::extrinsic) {
             watch_strength(edges, properties, parts.blocks);
             joints = make_extrinsic_joints(inner, properties, solid.thickness);

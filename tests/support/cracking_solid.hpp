@@ -47,7 +47,7 @@ inline CrackingSolid cracking_solid(Mesh mesh, const SolidDescription& what, con
     parts.damping.mass_proportional = what.mass_damping;
     const std::vector<JointEdge> edges = all_edges(*solid.mesh, *solid.inner);
     std::vector<std::string> warnings;
-    auto properties = edge_properties(*solid.mesh, edges, parts.blocks, what.materials, fracture, warnings);
+    auto properties = edge_properties(*solid.mesh, edges, parts.blocks, what.materials, fracture, {}, {}, warnings);
     watch_strength(edges, properties, parts.blocks);
     auto joints = make_extrinsic_joints(*solid.inner, properties, what.solid.thickness);
     Joints& cohesion = *joints;

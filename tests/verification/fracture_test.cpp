@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "fracture/cohesion.hpp"
+#include "integrators/central_difference.hpp"
+#include "integrators/cvode.hpp"
 #include "integrators/quasi_static.hpp"
 #include "support/one_thread.hpp"
 #include "support/small_solids.hpp"
@@ -14,7 +16,8 @@ namespace {
 constexpr double width = 4e-3, tensile = 4e6, energy_i = 80;
 
 /// Four millimetres square, without transverse strain, held below, moved above.
-test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula, 2> motion) {
+/// @param duration  of the motion, s
+test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula, 2> motion, double duration = 1) {
     test::SolidDescription what;
     MaterialOptions& material = what.materials[0];
     material.constants = {0, 30e9, 30e9, 30e9};
@@ -28,18 +31,21 @@ test::Solid strip(bool compt, FractureOptions::Method method, std::array<Formula
     top.on = "top";
     top.value = {motion[0], motion[1]};
     top.amplitude.kind = AmplitudeOptions::Kind::ramp;
-    top.amplitude.end = 1;
+    top.amplitude.end = duration;
     what.boundaries = {bottom, top};
     // one row of edges across the pull: a composite is four CST
     Mesh mesh = test::rectangle(compt, width, width, compt ? std::array{2, 2} : std::array{1, 1});
-    const std::vector<JointEdge> edges = open_all_sides(mesh);
+    InnerSides inner(mesh);
+    open_all_sides(inner);
+    const std::vector<JointEdge> edges = all_edges(mesh, inner);
     const Mesh opened = mesh;
     FractureOptions fracture;
     fracture.method = method;
     fracture.penalty = 50;
     return test::make_solid(std::move(mesh), what, [&](SolidSystem::Parts& parts) {
         std::vector<std::string> warnings;
-        const auto properties = edge_properties(opened, edges, parts.blocks, what.materials, fracture, warnings);
+        const auto properties =
+            edge_properties(opened, edges, parts.blocks, what.materials, fracture, {}, {}, warnings);
         parts.interactions.push_back(make_cohesion(opened, edges, properties, method, what.solid.thickness));
         EXPECT_TRUE(warnings.empty()) << warnings[0];
     });
@@ -68,6 +74,47 @@ TEST_P(Strip, PulledApart_TakesTheFractureEnergyInOpening) {
     EXPECT_EQ(state.path.friction, 0);
     // by the trapezoidal rule over a hundred load steps
     EXPECT_NEAR(state.path.support_work, state.path.fracture + stored, 2e-3 * energy_i * width);
+}
+
+/// Pulled apart in `duration` seconds, some hundred times as long as a wave needs to cross the strip.
+struct FastPull {
+    State state;
+    std::size_t n_rejected = 0;
+};
+
+FastPull pulled_fast(const test::Solid& solid, Integrator& integrator, double duration) {
+    FastPull result{solid.system->initial_state()};
+    March march;
+    march.t_end = duration;
+    march.after_step = [&](const StepReport& step) {
+        result.n_rejected += step.n_rejected;
+        return true;
+    };
+    march.run(*solid.system, integrator, result.state, false);
+    return result;
+}
+
+TEST_P(Strip, UnderASolverThatRejectsSteps_SoftensAsInSmallSteps) {
+    constexpr double duration = 2e-5;
+    const std::array<Formula, 2> motion{Formula(1e-5), Formula(4e-5)};
+    const test::Solid solid = strip(GetParam(), FractureOptions::Method::intrinsic, motion, duration);
+    CentralDifference small({.safety = 0.02});
+    const FastPull reference = pulled_fast(solid, small, duration);
+    Cvode::Options options;
+    options.rtol = 1e-5;
+    Cvode cvode(options);
+    const FastPull found = pulled_fast(solid, cvode, duration);
+    EXPECT_GT(found.n_rejected, 0u) << "nothing was tried and given up";
+    ASSERT_GT(reference.state.path.fracture, 0.5 * energy_i * width) << "nothing has softened";
+    // a thousand steps to 1e-5 of the largest displacement each, along a path that is only once differentiable
+    constexpr double tolerance = 2e-3;
+    EXPECT_NEAR(found.state.path.fracture, reference.state.path.fracture, tolerance * reference.state.path.fracture);
+    double largest = 0, difference = 0;
+    for (std::size_t i = 0; i < found.state.u.size(); ++i) {
+        largest = std::max(largest, std::abs(reference.state.u[i]));
+        difference = std::max(difference, std::abs(found.state.u[i] - reference.state.u[i]));
+    }
+    EXPECT_LE(difference, tolerance * largest);
 }
 
 }  // namespace

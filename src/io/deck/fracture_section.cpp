@@ -1,4 +1,4 @@
-// [fracture], and the strengths of a material.
+// [fracture], [[crack]], [[interface]], and strengths.
 
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
@@ -26,7 +26,58 @@ void check_fracture(TableReader& table, FractureOptions& fracture) {
         table.problem("seed", "has no effect without `weibull_modulus`");
 }
 
+bool read_regions_between(const Value& value, TableReader&, InterfaceOptions& out) {
+    const auto values = value.elements(2, "names of regions");
+    bool good = values.has_value();
+    for (std::size_t i = 0; values && i < values->size(); ++i)
+        good = (*values)[i].read(out.between.emplace_back()) && good;
+    if (!good || out.between[0] != out.between[1]) return good;
+    value.problem(fmt::format("given \"{}\" twice, must be two regions", out.between[0]));
+    return false;
+}
+
+void check_interface(TableReader& table, InterfaceOptions&) {
+    if (table.given("on") && table.given("between"))
+        table.problem("between", "given together with `on`, an interface is found in one way");
+}
+
 }  // namespace
+
+bool read_strength(const Value& value, StrengthOptions& out) {
+    const toml::table* content = value.node().as_table();
+    if (content == nullptr) {
+        value.refuse("a table");
+        return false;
+    }
+    const std::size_t before = value.findings().count();
+    TableReader keys(value.findings(), *content, value.where(), value.key());
+    read_section(strength_section(), keys, out);
+    return value.findings().count() == before;
+}
+
+const Section<CrackOptions>& crack_section() {
+    using C = CrackOptions;
+    static const Section<C> section{
+        {string("on", &C::on, {.required = true, .meaning = "name of a line inside the solid"})}};
+    return section;
+}
+
+const Section<InterfaceOptions>& interface_section() {
+    using I = InterfaceOptions;
+    static const Section<I> section{
+        {custom<I>(
+             "on", "a string", "",
+             {.required = true, .or_else = "between", .meaning = "name of a line inside the solid; or give `between`"},
+             [](const Value& value, TableReader&, I& out) { return value.read(out.on); }),
+         custom<I>("between", "an array of 2 strings", "",
+                   {.meaning = "two regions: the sides where they meet; or give `on`"}, read_regions_between),
+         custom<I>(
+             "strength", "a table", "",
+             {.required = true, .meaning = "in place of the materials' on both sides; keys as in `material.strength`"},
+             [](const Value& value, TableReader&, I& out) { return read_strength(value, out.strength); })},
+        check_interface};
+    return section;
+}
 
 const Section<StrengthOptions>& strength_section() {
     using S = StrengthOptions;

@@ -54,18 +54,6 @@ bool read_bedding(const Value& value, TableReader&, AxesOptions& out) {
     return good;
 }
 
-bool read_strength(const Value& value, TableReader&, MaterialOptions& out) {
-    const toml::table* content = value.node().as_table();
-    if (content == nullptr) {
-        value.refuse("a table");
-        return false;
-    }
-    const std::size_t before = value.findings().count();
-    TableReader keys(value.findings(), *content, value.where(), value.key());
-    read_section(strength_section(), keys, out.strength.emplace());
-    return value.findings().count() == before;
-}
-
 void check_axes(TableReader& table, AxesOptions& axes) {
     const std::array<std::pair<std::string_view, AxesOptions::Kind>, 3> ways{{{"angle", AxesOptions::Kind::angle},
                                                                               {"bedding", AxesOptions::Kind::bedding},
@@ -196,8 +184,9 @@ const Section<MaterialOptions>& material_section() {
                    .only_for = hypo,
                    .meaning = "Cauchy stress before the run, [xx, yy, xy], tension positive; may use x and y (m)"}),
          table("viscosity", viscosity_section, {.meaning = "viscous stress, added to the elastic one"}),
-         custom<M>("strength", "a table", "", {.meaning = "what holds edges together that may crack, see [fracture]"},
-                   read_strength)},
+         custom<M>(
+             "strength", "a table", "", {.meaning = "what holds edges together that may crack, see [fracture]"},
+             [](const Value& value, TableReader&, M& out) { return read_strength(value, out.strength.emplace()); })},
         check_material};
     return section;
 }

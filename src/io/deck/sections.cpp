@@ -104,6 +104,15 @@ const Section<BoundaryPart>& part_section() {
     return section;
 }
 
+const Section<InnerLine>& line_section() {
+    using L = InnerLine;
+    static const Section<L> section{
+        {string("name", &L::name, {.required = true, .meaning = "of the line, for cracks and interfaces"}),
+         numbers("from", &L::from, {.unit = "m", .required = true, .meaning = "its one end, [x, y]"}),
+         numbers("to", &L::to, {.unit = "m", .required = true, .meaning = "its other end, [x, y]"})}};
+    return section;
+}
+
 const Section<MeshOptions>& mesh_section() {
     using M = MeshOptions;
     const std::vector<Condition> rectangle{{"generator", {"rectangle"}}},
@@ -163,7 +172,9 @@ const Section<MeshOptions>& mesh_section() {
          boolean("curved", &M::curved,
                  {.only_for = plate_or_file,
                   .meaning = "mid-side nodes follow a curved boundary; false: all sides straight"}),
-         tables("parts", &M::parts, part_section, {.meaning = "parts of boundaries that get a name of their own"})},
+         tables("parts", &M::parts, part_section, {.meaning = "parts of boundaries that get a name of their own"}),
+         tables("lines", &M::lines, line_section,
+                {.meaning = "straight lines of sides inside the solid that get a name"})},
         check_mesh};
     return section;
 }
@@ -229,6 +240,9 @@ const Section<OutputOptions>& output_section() {
 const Section<CaseOptions>& case_section() {
     using C = CaseOptions;
     const auto check = [](TableReader& table, C& out) {
+        if (!out.interfaces.empty() && !table.failed("fracture") && !table.failed("interface") &&
+            out.fracture.method == FractureOptions::Method::none)
+            table.problem("interface", "has no effect without `fracture.method`: elements stay together");
         if (table.given("material") && out.materials.empty() && !table.failed("material")) {
             table.problem("material", "given none, must be at least one [[material]]");
         }
@@ -265,6 +279,10 @@ const Section<CaseOptions>& case_section() {
          table("fracture", &C::fracture, fracture_section, {.meaning = "cracks along edges of elements"}),
          table("contact", &C::contact, contact_section, {.meaning = "contact of bodies, and of the faces of cracks"}),
          tables("wall", &C::walls, wall_section, {.meaning = "rigid walls that bodies touch, one `[[wall]]` each"}),
+         tables("crack", &C::cracks, crack_section,
+                {.meaning = "cracks that are there before the run, one `[[crack]]` each"}),
+         tables("interface", &C::interfaces, interface_section,
+                {.meaning = "sides with strengths of their own, one `[[interface]]` each"}),
          table("integrator", &C::integrator, integrator_section, {.meaning = "time integration"}),
          table("run", &C::run, run_section, {.required = true, .meaning = "how long, how damped"}),
          table("output", &C::output, output_section, {.meaning = "what is written, and when"})},

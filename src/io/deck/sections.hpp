@@ -37,6 +37,9 @@ const Section<StrengthOptions>& strength_section();
 const Section<FractureOptions>& fracture_section();
 const Section<ContactOptions>& contact_section();
 const Section<WallOptions>& wall_section();
+const Section<CrackOptions>& crack_section();
+const Section<InterfaceOptions>& interface_section();
+const Section<InnerLine>& line_section();
 
 /// Whether exactly one of the sets that suit the law is given, and completely; reports otherwise.
 bool check_constants_set(const Value& value, const GivenConstants& given, LawKind law);
@@ -47,6 +50,9 @@ bool resolve_constants(const Value& value, const GivenConstants& given, Material
 
 /// Reads an amplitude: a table, or the bare name of one that needs nothing else.
 bool read_amplitude(const Value& value, AmplitudeOptions& out);
+
+/// Reads a table of strengths; reports what is wrong with it.
+bool read_strength(const Value& value, StrengthOptions& out);
 
 /// A section for the reference.
 struct SectionDoc {

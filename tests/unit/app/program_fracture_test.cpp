@@ -32,6 +32,10 @@ type = "velocity"
 value = [0.5, "free"]
 )toml";
 
+/// Nothing of it breaks.
+const std::string strong =
+    "material.0.strength={ tensile = 1e9, cohesion = 1e9, friction = 0, residual_friction = 0, G_I = 1e5, G_II = 1e5 }";
+
 class ProgramFracture : public test::ProgramTest {
 protected:
     ProgramFracture() { put("case.toml", cracking_deck); }
@@ -102,6 +106,32 @@ TEST_F(ProgramFracture, BadInput_IsNamed) {
     const std::size_t strength = cracking_deck.find("strength =");
     put("case.toml", cracking_deck.substr(0, strength) + "# " + cracking_deck.substr(strength));
     EXPECT_THAT(refusal({"run.t_end=1e-6"}), HasSubstr("`strength` is missing, which [fracture] needs"));
+    EXPECT_THAT(refusal({"crack=[{ on = \"left\" }]"}), HasSubstr("[[crack]] 1: on = \"left\": this is a boundary"));
+}
+
+TEST_F(ProgramFracture, Crack_IsOpenWithAndWithoutJoints) {
+    // the block is cut through: half of it stays where it is
+    const std::string probe = "output.probes=[{ name = \"left\", at = [0.015, 0.01] }]";
+    const std::string cut = "mesh.lines=[{ name = \"cut\", from = [0.02, 0], to = [0.02, 0.02] }]";
+    for (const char* element : {"solid.element=cst", "solid.element=compt"})
+        for (const char* method : {"fracture={ method = \"none\" }", "fracture.method=intrinsic"}) {
+            const nlohmann::json found =
+                energies({"--set", element, method, cut, strong, "crack=[{ on = \"cut\" }]", probe}, "out");
+            EXPECT_EQ(found["dissipated_fracture"].get<double>(), 0) << element << method;
+            EXPECT_GT(found["kinetic"].get<double>(), 0.05) << element << method;
+            EXPECT_TRUE(contents("out/probes.csv").ends_with(",0,0,0,0,0,0,0\n")) << "left of the cut nothing moves";
+        }
+}
+
+TEST_F(ProgramFracture, Interface_BreaksInPlaceOfTheMaterial) {
+    const std::string line = "mesh.lines=[{ name = \"seam\", from = [0.02, 0], to = [0.02, 0.02] }]";
+    const std::string seam =
+        "interface=[{ on = \"seam\", strength = { tensile = 4e6, cohesion = 1e7, friction = 0, "
+        "residual_friction = 0, G_I = 20, G_II = 60 } }]";
+    EXPECT_EQ(energies({"--set", line, strong}, "out")["dissipated_fracture"].get<double>(), 0);
+    const double apart =
+        energies({"--set", line, strong, seam, "fracture.weibull_modulus=0"}, "out")["dissipated_fracture"];
+    EXPECT_NEAR(apart, 20 * 0.02, 1e-3 * 20 * 0.02) << "G_I times the seam's length";
 }
 
 TEST_F(ProgramFracture, CoarseEdges_AreWarnedOf) {

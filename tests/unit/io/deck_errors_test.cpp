@@ -77,6 +77,25 @@ TEST(DeckErrors, TypesAndRanges) {
     });
 }
 
+TEST(DeckErrors, CracksAndInterfaces) {
+    const std::string strength =
+        "strength={ tensile = 1, cohesion = 1, friction = 0, residual_friction = 0, G_I = 1, G_II = 1 }";
+    const std::string method = "fracture.method=intrinsic";
+    expect_messages({
+        {{"interface=[{ on = \"a\", " + strength + " }]"},
+         {"key `interface`: has no effect without `fracture.method`: elements stay together"}},
+        {{method, "interface=[{ " + strength + " }]"},
+         {"key `interface[0].on`: missing (or `between`), must be a string"}},
+        {{method, "interface=[{ on = \"a\", between = [\"a\", \"b\"], " + strength + " }]"},
+         {"key `interface[0].between`: given together with `on`, an interface is found in one way"}},
+        {{method, "interface=[{ between = [\"a\", \"a\"], " + strength + " }]"},
+         {"key `interface[0].between`: given \"a\" twice, must be two regions"}},
+        {{"crack=[{}]"}, {"key `crack[0].on`: missing, must be a string"}},
+        {{"mesh.lines=[{ name = \"a\", from = [0, 0] }]"},
+         {"key `mesh.lines[0].to`: missing, must be an array of 2 numbers (m)"}},
+    });
+}
+
 TEST(DeckErrors, UnknownKeysAndWords) {
     expect_messages({
         {{"slid.plane=stress"}, {"key `slid`: unknown, did you mean `solid`?"}},

@@ -71,6 +71,14 @@ point = [0, -1]
 normal = [0, 1]
 velocity = [0.0, 0.1]
 friction = 0.2
+[[crack]]
+on = "fault"
+[[interface]]
+on = "bedding"
+strength = { tensile = 1e6, cohesion = 5e6, friction = 0.6, residual_friction = 0.4, G_I = 50, G_II = 500 }
+[[interface]]
+between = ["rock", "vein"]
+strength = { tensile = 1e6, cohesion = 5e6, friction = 0.6, residual_friction = 0.4, G_I = 50, G_II = 500 }
 [[load]]
 on = "hole"
 type = "pressure"
@@ -117,6 +125,7 @@ origin = [-1, -0.5]
 cells = [4, 2]
 pattern = "crossed"
 parts = [{ name = "half", of = "top", from = [0, 0.5], to = [1, 0.5] }]
+lines = [{ name = "notch", from = [-1, 0], to = [0, 0] }]
 [solid]
 plane = "stress"
 [[material]]

@@ -69,7 +69,7 @@ TEST(MakeMesh, BadOptions_ThrowAllProblems) {
               "mesh: width = -1 must be a finite length > 0 m\nmesh: height = -2 must be a finite length > 0 m");
 }
 
-TEST(MakeMesh, InnerLine_KeepsItsNodesAndWarns) {
+TEST(MakeMesh, InnerLine_HasNodesAndSides) {
     MeshOptions options;
     options.cells = {2, 1};
     MeshDraft draft = rectangle(options);
@@ -83,8 +83,11 @@ TEST(MakeMesh, InnerLine_KeepsItsNodesAndWarns) {
     EXPECT_EQ(mesh.boundaries.at("fault").size(), 2u);
     EXPECT_EQ(mesh.node_sets.at("joint").size(), 3u);
     EXPECT_EQ(mesh.boundaries.count("joint"), 0u);
-    EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("curve \"fault\" runs inside the solid in part:"),
-                                             HasSubstr("curve \"joint\" runs inside the solid: it can hold nodes")));
+    EXPECT_EQ(mesh.inner_lines.at("fault").size(), 1u);
+    EXPECT_EQ(mesh.inner_lines.at("joint").size(), 1u);
+    EXPECT_EQ(mesh.inner_lines.count("bottom"), 0u);
+    EXPECT_EQ(split_composites(mesh).inner_lines.at("joint").size(), 2u);
+    EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("curve \"fault\" runs inside the solid in part:")));
 }
 
 TEST(MakeMesh, UserNameBoundary_IsKept) {

@@ -51,6 +51,17 @@ TEST(MeshNames, Unknown_NameOfAnotherKind_SaysWhatItIs) {
                 testing::StartsWith("on = \"rock\": this is a region, needed: boundary or nodes;"));
 }
 
+TEST(MeshNames, LineInsideTheSolid_IsFoundAndNoBoundary) {
+    Mesh mesh = test::rectangle_mesh();
+    mesh.inner_lines["fault"] = {{0, 1}};
+    mesh.node_sets["fault"] = {0, 2};
+    EXPECT_THAT(inner_line_named(mesh, "fault"), SizeIs(1));
+    EXPECT_THAT(message_of([&] { boundary_named(mesh, "fault"); }),
+                testing::StartsWith("on = \"fault\": this is a line inside the solid, needed: boundary;"));
+    EXPECT_EQ(message_of([&] { inner_line_named(mesh, "left"); }),
+              "on = \"left\": this is a boundary, needed: line inside the solid; there are: \"fault\"");
+}
+
 TEST(MeshNames, Unknown_MeshWithoutNames_SaysSo) {
     const Mesh mesh;
     EXPECT_EQ(message_of([&] { boundary_named(mesh, "left"); }),

@@ -1,0 +1,18 @@
+"""The experiments of the study. To add one: copy a module, add it to EXPERIMENTS; bounds go into check_metrics.py.
+
+A module has
+    cases(profile)           decks by the name of the case; profile "full" or "quick"
+    measure(runs, profile)   a dictionary with "metrics" (numbers) and whatever its figures need, all of it JSON; runs is the
+                             folder with a folder for each case
+    FIGURES                  names of its figures, and
+    draw(measured, figures)  which makes them from what was measured, into the folder `figures`
+CHECKED holds those whose decks are only checked (`gneiss check`) so far: `cases` is all that is asked of them.
+"""
+from __future__ import annotations
+
+from types import ModuleType
+
+from studies.fracture.experiments import branching, brazilian, dcb, joint, kalthoff, speed
+
+EXPERIMENTS: dict[str, ModuleType] = {"joint": joint, "dcb": dcb, "speed": speed, "brazilian": brazilian}
+CHECKED: dict[str, ModuleType] = {"branching": branching, "kalthoff": kalthoff}

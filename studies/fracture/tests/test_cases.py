@@ -1,0 +1,59 @@
+"""What the study promises about its cases: names, closed forms, one key from joints to splitting."""
+import unittest
+
+import numpy as np
+
+from studies.fracture.cases import checked_decks, decks
+from studies.fracture.experiments import CHECKED, EXPERIMENTS, branching, brazilian, dcb, kalthoff, speed
+from studies.fracture.experiments.joint import HALF, LAW, turning_points
+
+
+class TestDecks(unittest.TestCase):
+    def test_EveryCase_HasItsOwnNameAndTitle(self):
+        for profile in ("full", "quick"):
+            found = decks(profile) | checked_decks(profile)
+            self.assertEqual(len(found), sum(len(m.cases(profile)) for m in [*EXPERIMENTS.values(), *CHECKED.values()]))
+            for name, deck in found.items():
+                self.assertTrue(deck["title"].startswith("fracture: "), name)
+
+    def test_Figures_AreMadeOnce(self):
+        figures = [figure for module in EXPERIMENTS.values() for figure in module.FIGURES]
+        self.assertEqual(len(figures), len(set(figures)))
+
+    def test_Method_IsOneKey(self):
+        for module in (branching, kalthoff):
+            for a, b in zip(module.cases("full").values(), module.cases("full", "extrinsic").values()):
+                self.assertEqual(b["fracture"], {"method": "extrinsic"})
+                self.assertEqual({k: v for k, v in a.items() if k not in ("fracture", "title")},
+                                 {k: v for k, v in b.items() if k not in ("fracture", "title")})
+
+
+class TestClosedForms(unittest.TestCase):
+    def test_Joint_PathsEndWhereNothingHolds(self):
+        o, s = turning_points("opening")[-1]
+        self.assertGreater(o, LAW.last_lambda(1.0) * LAW.opening_at_peak)
+        self.assertEqual(s, 0)
+        self.assertLess(o, 0.1 * HALF)
+
+    def test_Dcb_LoadOfAGrowingCrack_KeepsItsEnergyRelease(self):
+        for crack in (5 * dcb.ARM, 20 * dcb.ARM):
+            opening = dcb.opening_at(crack)
+            force = dcb.load(opening)
+            beam = dcb.beam_length(opening, force)
+            self.assertAlmostEqual(float(beam), crack + dcb.CHI * dcb.ARM)
+            self.assertAlmostEqual(float(12 * force**2 * beam**2 / (dcb.YOUNG * dcb.ARM**3)), dcb.SEAM["G_I"])
+
+    def test_Disc_NarrowArc_IsThePointLoad(self):
+        across, along = brazilian.centre_stress(1.0)
+        point = 2 * brazilian.force_of(1.0) / (np.pi * 2 * brazilian.RADIUS)
+        self.assertAlmostEqual(across / point, 1.0, delta=0.05)
+        self.assertAlmostEqual(along / point, -3.0, delta=0.05)
+
+    def test_Lag_IsTheDelay(self):
+        t = np.linspace(0, 1, 1000)
+        pulse = lambda at: np.exp(-(((t - at) / 0.05) ** 2))
+        self.assertAlmostEqual(speed.lag(t, pulse(0.3), 0.8 * pulse(0.6234)), 0.3234, places=4)
+
+
+if __name__ == "__main__":
+    unittest.main()

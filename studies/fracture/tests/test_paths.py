@@ -1,0 +1,120 @@
+"""Crack paths from segments that are made up."""
+import unittest
+
+import numpy as np
+
+from studies.common.fields import Frame
+from studies.fracture.paths import Segments, angle_of, apart, branching, connected, start_time, tip_history, tip_speed
+
+SIZE = 1e-3
+
+
+def chain(points, t_first, speed):
+    """Edges of about SIZE along a polyline, failing one after the other."""
+    points = np.asarray(points, dtype=float)
+    ends, times, t = [], [], t_first
+    for a, b in zip(points[:-1], points[1:]):
+        n = max(1, round(float(np.linalg.norm(b - a)) / SIZE))
+        for k in range(n):
+            p, q = a + (b - a) * k / n, a + (b - a) * (k + 1) / n
+            t += float(np.linalg.norm(q - p)) / speed
+            ends.append([p, q])
+            times.append(t)
+    return np.array(ends), np.array(times)
+
+
+def segments(*parts):
+    ends, times = np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+    return Segments(ends, np.zeros(len(times)), np.zeros(len(times)), times)
+
+
+NOTCH = (np.array([[[0.0, 0.0], [0.05, 0.0]]]), np.array([0.0]))
+SOUND = (np.array([[[0.06, 0.01], [0.061, 0.01]]]), np.array([np.inf]))
+
+
+class TestRunningCrack(unittest.TestCase):
+    def setUp(self):
+        self.cracks = segments(NOTCH, SOUND, chain([(0.05, 0), (0.07, 0)], 10e-6, 1000.0))
+
+    def test_Start_IsTheFirstFailureAfterTheNotch(self):
+        self.assertAlmostEqual(start_time(self.cracks), 11e-6)
+
+    def test_Tip_RunsAtItsSpeed(self):
+        times, reach = tip_history(self.cracks)
+        self.assertAlmostEqual(reach[0], 0.05)
+        self.assertAlmostEqual(reach[-1], 0.07)
+        self.assertAlmostEqual(tip_speed(times[1:], reach[1:], 5e-3), 1000.0, delta=1)
+
+    def test_OneCrack_DoesNotBranch(self):
+        self.assertTrue(np.isnan(branching(self.cracks, 3 * SIZE, 2 * SIZE)[0]))
+
+    def test_NothingFailed_IsNaN(self):
+        nothing = segments(SOUND)
+        self.assertTrue(np.isnan(start_time(nothing)))
+        self.assertTrue(np.isnan(branching(nothing, SIZE, SIZE)[1]))
+        self.assertTrue(np.isnan(angle_of(nothing, np.zeros(2), SIZE)))
+
+
+class TestBranches(unittest.TestCase):
+    def test_Branching_IsWhereTwoArmsAreApart(self):
+        trunk = chain([(0.05, 0), (0.065, 0)], 10e-6, 1000.0)
+        up = chain([(0.065, 0), (0.085, 0.01)], 25e-6, 1000.0)
+        down = chain([(0.065, 0), (0.085, -0.01)], 27e-6, 1000.0)
+        where, when = branching(segments(trunk, up, down), 3 * SIZE, 2 * SIZE)
+        # arms of slope 1/2 are 3 mm apart 3 mm behind the fork; columns are 2 mm wide
+        self.assertGreater(where, 0.066)
+        self.assertLess(where, 0.071)
+        self.assertGreater(when, 27e-6)
+        self.assertLess(when, 33e-6)
+
+    def test_ShortSideCrack_IsNoBranch(self):
+        trunk = chain([(0.05, 0), (0.08, 0)], 10e-6, 1000.0)
+        stub = chain([(0.06, 0.005), (0.062, 0.005)], 20e-6, 1000.0)
+        self.assertTrue(np.isnan(branching(segments(trunk, stub), 3 * SIZE, 2 * SIZE)[0]))
+
+
+class TestAngle(unittest.TestCase):
+    def test_Angle_IsThatOfTheCrackAtTheTip(self):
+        tip = np.array([0.05, 0.025])
+        way = np.array([np.cos(np.radians(68)), np.sin(np.radians(68))])
+        crack = chain([tip, tip + 0.04 * way], 25e-6, 1000.0)
+        elsewhere = chain([(0.1, 0.09), (0.09, 0.099)], 25e-6, 1000.0)
+        self.assertAlmostEqual(angle_of(segments(NOTCH, crack, elsewhere), tip, 1e-5), 68, places=6)
+
+    def test_Connected_CountsChains(self):
+        ends = np.array([[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[3, 3], [4, 4]]], dtype=float)
+        numbers = connected(ends, 1e-6)
+        self.assertEqual(numbers[0], numbers[1])
+        self.assertNotEqual(numbers[0], numbers[2])
+
+
+class TestApart(unittest.TestCase):
+    """Two triangles along the x axis that do not share nodes: the upper one moves."""
+
+    def jump(self, move, swapped=False):
+        points = np.array([[0, 0], [1, 0], [0.5, -1], [0, 0], [1, 0], [0.5, 1]], dtype=float)
+        triangles = np.array([[0, 2, 1], [3, 4, 5]])
+        if swapped:
+            triangles = triangles[::-1]
+        u = np.zeros((6, 2))
+        u[3:] = move
+        return apart(Frame(points, triangles, {"displacement": u}))
+
+    def test_OpeningAndSlip_AreThoseOfTheMotion(self):
+        for swapped in (False, True):
+            found = self.jump([0.2, 0.1], swapped)
+            self.assertEqual(found.length.size, 1)
+            self.assertAlmostEqual(float(found.opening[0]), 0.1)
+            self.assertAlmostEqual(float(found.slip[0]), 0.2)
+
+    def test_Closing_IsNegative(self):
+        self.assertAlmostEqual(float(self.jump([0, -0.1]).opening[0]), -0.1)
+
+    def test_SharedNodes_AreNotApart(self):
+        points = np.array([[0, 0], [1, 0], [0.5, -1], [0.5, 1]], dtype=float)
+        frame = Frame(points, np.array([[0, 2, 1], [0, 1, 3]]), {"displacement": np.zeros((4, 2))})
+        self.assertEqual(apart(frame).length.size, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
