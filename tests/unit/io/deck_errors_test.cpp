@@ -84,7 +84,8 @@ TEST(DeckErrors, CracksAndInterfaces) {
     expect_messages({
         {{"interface=[{ on = \"a\", " + strength + " }]"},
          {"key `interface`: has no effect without `fracture.method`: elements stay together"}},
-        {{method, "interface=[{ " + strength + " }]"}, {"key `interface[0].on`: missing (or `between`), must be a string"}},
+        {{method, "interface=[{ " + strength + " }]"},
+         {"key `interface[0].on`: missing (or `between`), must be a string"}},
         {{method, "interface=[{ on = \"a\", between = [\"a\", \"b\"], " + strength + " }]"},
          {"key `interface[0].between`: given together with `on`, an interface is found in one way"}},
         {{method, "interface=[{ between = [\"a\", \"a\"], " + strength + " }]"},
