@@ -20,7 +20,8 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
         summary.groups["cracks"] = {{"cracked_length_m", cracks[0]},
                                     {"fragments", cracks[1]},
                                     {"nodes", cracks[2]},
-                                    {"splitting_events", built.cracking->n_events()}};
+                                    {"splitting_events", built.cracking->n_events()},
+                                    {"largest_overshoot", built.cracking->largest_overshoot()}};
     }
     summary.groups["time"] = {{"t_s", now.state.t}, {"t_end_s", built.options.run.t_end}, {"last_dt_s", now.last_dt}};
 

@@ -214,7 +214,10 @@ std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
         const double length = std::hypot(line.x, line.y);
         const Vec2<double> t{line.x / length, line.y / length}, n{t.y, -t.x};
         const CohesionProperties<double>& p = parts_.properties[n_parts * index(side)];
-        if (envelope_index(p, dot(traction, n) / length, dot(traction, t) / length) >= 1) found.push_back(side);
+        const double index_of_side = envelope_index(p, dot(traction, n) / length, dot(traction, t) / length);
+        if (!(index_of_side >= 1)) continue;
+        found.push_back(side);
+        largest_overshoot_ = std::max(largest_overshoot_, std::sqrt(index_of_side) - 1);
     }
     return found;
 }

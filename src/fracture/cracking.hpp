@@ -56,6 +56,9 @@ public:
     std::vector<bool> broken_sides(const State& state) const;
     std::span<const double> history(const State& state) const;
     std::size_t n_events() const { return n_events_; }
+    /// By how much tractions were beyond the strength where sides were found to open, relative, the largest so far:
+    /// what the length of steps has to answer for.
+    double largest_overshoot() const { return largest_overshoot_; }
 
     /// What has come apart, in the order in which it did: enough to come to the same mesh again.
     std::vector<double> save() const { return record_; }
@@ -78,6 +81,7 @@ private:
     Parts parts_;
     std::vector<double> record_;
     std::size_t n_events_ = 0;
+    double largest_overshoot_ = 0;
     // scratch: stresses of elements already asked for in this look
     std::vector<std::int64_t> seen_;
     std::vector<std::array<double, 3>> stresses_;

@@ -43,6 +43,8 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
     inverted_.resize(chunks_.size());
     sums_.resize(chunks_.size());
     rates_.resize(chunks_.size());
+    nodes_of_chunk_.resize(chunks_.size());
+    for (std::size_t c = 0; c < chunks_.size(); ++c) list_nodes(c);
     plan();
 }
 
@@ -59,9 +61,26 @@ void ElementForces::renumber(const Mesh& mesh, std::span<const std::int32_t> ele
         const Place& place = place_[static_cast<std::size_t>(e)];
         locals[static_cast<std::size_t>(place.block)].push_back(place.local);
     }
-    for (std::size_t b = 0; b < blocks_.size(); ++b) blocks_[b]->renumber(mesh, locals[b]);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        blocks_[b]->renumber(mesh, locals[b]);
+        std::ranges::sort(locals[b]);
+    }
     n_nodes_ = mesh.n_nodes();
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+        const auto& changed = locals[chunks_[c].block];
+        const auto first = std::ranges::lower_bound(changed, static_cast<std::int32_t>(chunks_[c].first * pack_width));
+        // the lanes behind the last element repeat it, and stand in its chunk
+        if (first != changed.end() && static_cast<std::size_t>(*first) < chunks_[c].last * pack_width) list_nodes(c);
+    }
     plan();
+}
+
+void ElementForces::list_nodes(std::size_t c) {
+    const auto nodes = nodes_of(chunks_[c]).first;
+    std::vector<std::int32_t>& own = nodes_of_chunk_[c];
+    own.assign(nodes.begin(), nodes.end());
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
 }
 
 void ElementForces::plan() {
@@ -71,17 +90,13 @@ void ElementForces::plan() {
     slot_starts_.clear();
     largest_chunk_ = n_slots_ = 0;
     std::vector<std::int32_t> local(n_nodes_), touched(n_nodes_, 0);
-    for (Chunk& chunk : chunks_) {
-        const auto nodes = nodes_of(chunk).first;
-        chunk.first_node = chunk_nodes_.size();
-        chunk_nodes_.insert(chunk_nodes_.end(), nodes.begin(), nodes.end());
-        const auto own = chunk_nodes_.begin() + static_cast<std::ptrdiff_t>(chunk.first_node);
-        std::sort(own, chunk_nodes_.end());
-        chunk_nodes_.erase(std::unique(own, chunk_nodes_.end()), chunk_nodes_.end());
-        chunk.last_node = chunk_nodes_.size();
-        largest_chunk_ = std::max(largest_chunk_, chunk.last_node - chunk.first_node);
-        for (std::size_t i = chunk.first_node; i < chunk.last_node; ++i)
-            ++touched[static_cast<std::size_t>(chunk_nodes_[i])];
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+        const std::vector<std::int32_t>& own = nodes_of_chunk_[c];
+        chunks_[c].first_node = chunk_nodes_.size();
+        chunk_nodes_.insert(chunk_nodes_.end(), own.begin(), own.end());
+        chunks_[c].last_node = chunk_nodes_.size();
+        largest_chunk_ = std::max(largest_chunk_, own.size());
+        for (const std::int32_t node : own) ++touched[static_cast<std::size_t>(node)];
     }
     if (largest_chunk_ * bytes_per_pair > std::size_t{1} << 16)
         throw std::logic_error("a chunk has more nodes than 16-bit offsets reach: make chunk_size smaller");

@@ -62,6 +62,8 @@ private:
         std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_
     };
 
+    /// The nodes of a chunk, into nodes_of_chunk_.
+    void list_nodes(std::size_t chunk);
     void plan();
     /// body(number, chunk) for every chunk, in parallel.
     template <class Body>
@@ -89,9 +91,10 @@ private:
     bool far_;                          ///< nodal values come from beyond the second-level cache
     std::vector<std::int64_t> labels_;  ///< of the mesh's elements, for messages
 
-    std::vector<std::int32_t> chunk_nodes_;  ///< of each chunk in the order of its local numbers
-    std::vector<std::int32_t> chunk_slots_;  ///< where its part of the force of its shared nodes goes
-    std::size_t largest_chunk_ = 0;          ///< nodes
+    std::vector<std::vector<std::int32_t>> nodes_of_chunk_;  ///< ascending
+    std::vector<std::int32_t> chunk_nodes_;                  ///< of each chunk in the order of its local numbers
+    std::vector<std::int32_t> chunk_slots_;                  ///< where its part of the force of its shared nodes goes
+    std::size_t largest_chunk_ = 0;                          ///< nodes
 
     // nodes that more than one chunk touches, ascending, and where their slots begin; by ascending chunk
     std::vector<std::int32_t> shared_nodes_;

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <sstream>
+
 #include "unit/app/program.hpp"
 
 namespace gneiss {
@@ -71,9 +74,32 @@ TEST_F(ProgramFracture, ThreadsAndRestarts_DoNotMoveABit) {
     }
 }
 
+TEST_F(ProgramFracture, Results_TellOfCracksAndFragments) {
+    for (const std::string method : {"fracture.method=intrinsic", "fracture.method=extrinsic"}) {
+        energies({"--set", method}, "out");
+        const nlohmann::json cracks = summary("out")["cracks"];
+        EXPECT_GE(cracks["cracked_length_m"], 0.02) << "from top to bottom, " << method;
+        EXPECT_GE(cracks["fragments"], 2);
+        EXPECT_THAT(contents("out/cracks.pvd"), HasSubstr("cracks_000001.vtu"));
+        std::istringstream rows(contents("out/fragments.csv"));
+        std::string line;
+        std::getline(rows, line);
+        EXPECT_EQ(line, "t [s],fragment,elements,mass [kg],x [m],y [m],v_x [m/s],v_y [m/s]");
+        std::map<std::string, double> mass;
+        while (std::getline(rows, line)) {
+            std::istringstream fields(line);
+            std::vector<std::string> values;
+            for (std::string value; std::getline(fields, value, ',');) values.push_back(value);
+            mass[values[0]] += std::stod(values[3]);
+        }
+        ASSERT_EQ(mass.size(), 2u);
+        for (const auto& [t, sum] : mass) EXPECT_NEAR(sum, 2500 * 0.04 * 0.02, 1e-12) << "at " << t;
+    }
+}
+
 TEST_F(ProgramFracture, Extrinsic_BeforeAnythingBreaks_IsTheWholeSolidToTheBit) {
-    const std::string strong = "material.0.strength.tensile=1e9", very = "material.0.strength.cohesion=1e9";
-    energies({"--set", "fracture.method=extrinsic", strong, very, "material.0.strength.G_I=1e6",
+    const std::string tension = "material.0.strength.tensile=1e9", shear = "material.0.strength.cohesion=1e9";
+    energies({"--set", "fracture.method=extrinsic", tension, shear, "material.0.strength.G_I=1e6",
               "material.0.strength.G_II=1e6"},
              "watched");
     energies({"--set", "fracture={ method = \"none\" }"}, "whole");

@@ -87,6 +87,34 @@ TEST_F(FieldOutput, Vtu_ReadBack_HasMeshFieldsAndTime) {
     EXPECT_EQ(four->GetComponent(1, 0), 5);
 }
 
+TEST_F(FieldOutput, Vtu_OfLines_HasLines) {
+    const std::vector<std::array<std::int32_t, 2>> lines{{0, 1}, {1, 3}, {3, 2}};
+    const std::vector<std::int32_t> side{5, 6, 8};
+    const std::vector<double> damage{0.5, 1, nan};
+    FieldMesh cracks;
+    cracks.points = points;
+    cracks.lines = lines;
+    cracks.integers = {{"side", side}};
+    VtuWriter(cracks).write(folder / "a.vtu", 0, 0, {{}, {{"damage", damage}}});
+    const auto grid = read(folder / "a.vtu");
+    ASSERT_EQ(grid->GetNumberOfCells(), 3);
+    EXPECT_EQ(grid->GetCellType(2), VTK_LINE);
+    vtkNew<vtkIdList> ends;
+    grid->GetCellPoints(2, ends);
+    EXPECT_EQ(ends->GetId(0), 3);
+    EXPECT_EQ(ends->GetId(1), 2);
+    EXPECT_EQ(grid->GetCellData()->GetArray("side")->GetTuple1(2), 8);
+    EXPECT_EQ(grid->GetCellData()->GetArray("damage")->GetTuple1(1), 1);
+    cracks.points = std::span(points).first(3);
+    EXPECT_EQ(message_of<std::invalid_argument>([&] { VtuWriter{cracks}; }),
+              "VtuWriter: line 1 names point 3, allowed: 0 to 2");
+}
+
+TEST_F(FieldOutput, Vtu_WithoutAnyCell_CanBeRead) {  // a solid that has not cracked yet
+    VtuWriter(FieldMesh{}).write(folder / "a.vtu", 0, 0, {});
+    EXPECT_EQ(read(folder / "a.vtu")->GetNumberOfCells(), 0);
+}
+
 TEST_F(FieldOutput, Vtu_PlaneVector_IsPaddedToThree) {
     VtuWriter(mesh).write(folder / "a.vtu", 0, 0, fields);
     vtkNew<vtkUnstructuredGrid> grid = read(folder / "a.vtu");
