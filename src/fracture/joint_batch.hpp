@@ -1,10 +1,10 @@
 #pragma once
 // Joints side by side in packs: the Interaction behind joints.hpp, for one law. Included only by joints.cpp.
 //
-// History of a pack: 1, or 0 while nothing has happened to any of its joints, and then all of it is zero; members of
-// the law's history at both ends, then when the joints failed and in which mode; of extrinsic ones also by how much
-// each end is stronger than its properties say. Packs follow each other, so that joints are appended. A time of failure
-// below zero says that contact has taken over.
+// History: for each pack 1, or 0 while nothing has happened to any of its joints, and then all of it is zero. Behind
+// them, pack by pack, members of the law's history at both ends, then when the joints failed and in which mode; of
+// extrinsic ones also by how much each end is stronger than its properties say. Packs follow each other, so that joints
+// are appended. A time of failure below zero says that contact has taken over.
 
 #include <omp.h>
 #include <algorithm>
@@ -28,7 +28,7 @@ class JointBatch final : public Joints {
     using Packs = std::vector<double, xsimd::aligned_allocator<double>>;
     static constexpr std::size_t n_members = History::members.size(),
                                  n_properties = CohesionProperties<double>::members.size(), n_dof = 2 * joint_nodes,
-                                 failure_row = 1 + joint_points * n_members, mode_row = failure_row + 1,
+                                 failure_row = joint_points * n_members, mode_row = failure_row + 1,
                                  factor_row = mode_row + 1, history_rows = factor_row + (extrinsic ? joint_points : 0);
     /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
     static constexpr double far_slip = 0.25;
@@ -43,7 +43,7 @@ public:
     std::size_t part_of_side(std::size_t joint) const override {
         return joint > 0 && sides_[joint - 1] == sides_[joint] ? 1 : 0;
     }
-    std::size_t n_history() const override { return n_packs() * history_rows * pack_width; }
+    std::size_t n_history() const override { return n_packs() * (1 + history_rows * pack_width); }
     void initial_history(std::span<double> history) const override;
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;
@@ -76,15 +76,21 @@ public:
 private:
     std::size_t n_packs() const { return padded(n_joints_) / pack_width; }
     static Pack load(const Packs& values, std::size_t row) { return Pack::load_aligned(&values[row * pack_width]); }
-    static Pack row(std::span<const double> history, std::size_t pack, std::size_t which) {
-        return Pack::load_unaligned(&history[(pack * history_rows + which) * pack_width]);
+    /// Where a pack's row begins in the history.
+    std::size_t place(std::size_t pack, std::size_t which) const {
+        return n_packs() + (pack * history_rows + which) * pack_width;
+    }
+    Pack row(std::span<const double> history, std::size_t pack, std::size_t which) const {
+        return Pack::load_unaligned(&history[place(pack, which)]);
     }
     static constexpr std::size_t member_row(std::size_t point, std::size_t member) {
-        return 1 + point * n_members + member;
+        return point * n_members + member;
     }
     /// Whether nothing has happened to the joints of a pack.
-    static bool untouched(std::span<const double> history, std::size_t pack) {
-        return history[pack * history_rows * pack_width] == 0;
+    static bool untouched(std::span<const double> history, std::size_t pack) { return history[pack] == 0; }
+    /// Where a joint's entry of a row stands.
+    std::size_t entry(std::size_t joint, std::size_t which) const {
+        return place(joint / pack_width, which) + joint % pack_width;
     }
     /// What untouched joints do: true, and their tractions, if that is what they are at this trial as well.
     bool stay_elastic(std::span<const double> history, std::size_t pack, const JointMotion<Pack>& motion,
@@ -105,10 +111,6 @@ private:
         } else {
             return false;
         }
-    }
-    /// Where a joint's entry of a row stands.
-    static std::size_t entry(std::size_t joint, std::size_t which) {
-        return (joint / pack_width * history_rows + which) * pack_width + joint % pack_width;
     }
     Vec2<Pack> edge(std::size_t pack) const { return {load(edges_, 2 * pack), load(edges_, 2 * pack + 1)}; }
     double length(std::size_t joint) const {
@@ -132,13 +134,13 @@ private:
         if constexpr (extrinsic) w = choose(at.lambda_max < Pack(1.0), Pack(0.0), w);
         return w;
     }
-    static History history_of(std::span<const double> history, std::size_t pack, std::size_t point) {
+    History history_of(std::span<const double> history, std::size_t pack, std::size_t point) const {
         History h;
         for (std::size_t i = 0; i < n_members; ++i) h.*History::members[i] = row(history, pack, member_row(point, i));
         return h;
     }
-    static void store(const Pack& value, std::span<double> history, std::size_t pack, std::size_t which) {
-        value.store_unaligned(&history[(pack * history_rows + which) * pack_width]);
+    void store(const Pack& value, std::span<double> history, std::size_t pack, std::size_t which) const {
+        value.store_unaligned(&history[place(pack, which)]);
     }
     std::array<Vec2<Pack>, joint_nodes> gather(std::span<const double> u, std::size_t pack) const {
         std::array<Vec2<Pack>, joint_nodes> at;
@@ -311,7 +313,7 @@ void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> histor
     const Pack both = apart + along;
     store(choose(fails, Pack(apart / choose(both > Pack(0.0), both, Pack(1.0))), row(history, pack, mode_row)), updated,
           pack, mode_row);
-    store(Pack(1.0), updated, pack, 0);
+    updated[pack] = 1;
 }
 
 // ---- forces --------------------------------------------------------------------------------------------------------
@@ -329,8 +331,10 @@ void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const d
         std::array<Traction<Pack>, joint_points> tractions;
         if (stay_elastic(history, pack, motion, tractions)) {
             // what stands there is from a trial that was given up, or nothing
-            if (!updated.empty() && !untouched(updated, pack))
-                std::ranges::fill(updated.subspan(pack * history_rows * pack_width, history_rows * pack_width), 0.0);
+            if (!updated.empty() && !untouched(updated, pack)) {
+                updated[pack] = 0;
+                std::ranges::fill(updated.subspan(place(pack, 0), history_rows * pack_width), 0.0);
+            }
         } else {
             soften(trial.t, history, pack, motion, tractions, updated);
         }

@@ -9,6 +9,7 @@ template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::follow(const Parting& parting, const State&, std::vector<double>& history,
                                         PathEnergies&) {
     if constexpr (extrinsic) {
+        const std::size_t n_old = n_packs();
         // sides at the elements whose nodes have changed, once each
         std::vector<std::int32_t> sides;
         for (const std::int32_t e : parting.elements)
@@ -34,9 +35,9 @@ void JointBatch<Law, extrinsic>::follow(const Parting& parting, const State&, st
                     fresh[i].side});
         fill_last_pack();
         plan_sums();
-        const std::size_t n_old = history.size();
+        history.insert(history.begin() + static_cast<std::ptrdiff_t>(n_old), n_packs() - n_old, 0.0);
         history.resize(n_history(), 0.0);
-        for (std::size_t pack = n_old / (history_rows * pack_width); pack < n_packs(); ++pack)
+        for (std::size_t pack = n_old; pack < n_packs(); ++pack)
             for (std::size_t i = 0; i < joint_points; ++i) store(Pack(1.0), history, pack, factor_row + i);
     } else {
         (void)parting;
