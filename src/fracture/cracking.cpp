@@ -8,7 +8,6 @@
 
 #include "base/errors.hpp"
 #include "fracture/envelope.hpp"
-#include "mesh/composite.hpp"
 
 namespace gneiss {
 namespace {
@@ -150,32 +149,41 @@ bool Cracking::named(const std::vector<NodeCopy>& copies) const {
     });
 }
 
-const std::array<double, 3>& Cracking::stress(const State& state, const ElementSide& side, std::size_t part) {
+std::array<double, 3> Cracking::stress(const State& state, const ElementSide& side, std::size_t part) {
     const ElementForces& elements = parts_.solid.elements();
-    const auto n_sub = static_cast<std::size_t>(elements.n_sub_triangles());
-    seen_.resize(parts_.mesh.n_elements(), -1);
-    stresses_.resize(parts_.mesh.n_elements() * n_sub);
-    const std::size_t e = index(side.element);
-    if (seen_[e] != look_) {
-        seen_[e] = look_;
-        std::array<PointFields, sub_triangles_per_composite> fields;
-        elements.point_fields(side.element, state, fields.data());
-        for (std::size_t s = 0; s < n_sub; ++s) stresses_[e * n_sub + s] = fields[s].cauchy;
+    const std::size_t per_pack = static_cast<std::size_t>(elements.n_sub_triangles()) * 3 * pack_width;
+    if (first_pack_.empty()) {
+        first_pack_.push_back(0);
+        for (const auto& block : elements.blocks()) first_pack_.push_back(first_pack_.back() + block->n_packs());
+        seen_.assign(first_pack_.back(), -1);
+        stresses_.resize(first_pack_.back() * per_pack);
     }
-    return stresses_[e * n_sub + static_cast<std::size_t>(sub_triangle_at(parts_.mesh.kind, side.side, part))];
+    const ElementForces::Place& place = elements.place(side.element);
+    const std::size_t pack = index(place.local) / pack_width, lane = index(place.local) % pack_width;
+    const std::size_t slot = first_pack_[index(place.block)] + pack;
+    double* of_pack = stresses_.data() + slot * per_pack;
+    if (seen_[slot] != look_) {
+        seen_[slot] = look_;
+        elements.blocks()[index(place.block)]->pack_stress(
+            pack, elements.evaluation(index(place.block), state, Trial::of(state)), of_pack);
+    }
+    const auto sub = static_cast<std::size_t>(sub_triangle_at(parts_.mesh.kind, side.side, part));
+    const double* xx = of_pack + 3 * sub * pack_width + lane;
+    return {xx[0], xx[pack_width], xx[2 * pack_width]};
 }
 
 std::array<double, 3> Cracking::mean_stress(const State& state, std::int32_t side, std::size_t part) {
     const InnerSide& inner = parts_.inner.sides()[index(side)];
     const std::size_t n_parts = side_nodes(parts_.mesh.kind, 0).size() - 1;
     const std::array<double, 3> left = stress(state, inner.left, part);
-    const std::array<double, 3>& right = stress(state, inner.right, n_parts - 1 - part);
+    const std::array<double, 3> right = stress(state, inner.right, n_parts - 1 - part);
     return {0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1]), 0.5 * (left[2] + right[2])};
 }
 
 std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
     const ElementForces& elements = parts_.solid.elements();
     candidates_.clear();
+    looked_at_.resize(parts_.inner.sides().size(), -1);
     for (std::size_t b = 0; b < elements.blocks().size(); ++b) {
         const ElementBlock& block = *elements.blocks()[b];
         const auto beyond = elements.beyond(b, state);
@@ -187,14 +195,13 @@ std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
                 if ((lanes >> lane & 1U) == 0 || local >= block.n_elements()) continue;
                 for (int side = 0; side < 3; ++side) {
                     const std::int32_t s = parts_.inner.number({block.element(local), side});
-                    if (s >= 0 && !parts_.inner.is_open(s)) candidates_.push_back(s);
+                    if (s < 0 || parts_.inner.is_open(s) || looked_at_[index(s)] == look_) continue;
+                    looked_at_[index(s)] = look_;
+                    candidates_.push_back(s);
                 }
             }
         }
     }
-    std::ranges::sort(candidates_);
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
-
     std::vector<std::int32_t> found;
     for (const std::int32_t side : candidates_) {
         const ElementSide& left = parts_.inner.sides()[index(side)].left;
@@ -219,6 +226,7 @@ std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
         found.push_back(side);
         largest_overshoot_ = std::max(largest_overshoot_, std::sqrt(index_of_side) - 1);
     }
+    std::ranges::sort(found);
     return found;
 }
 

@@ -73,7 +73,7 @@ private:
     std::vector<std::int32_t> sides_beyond(const State& state);
     /// Mean of the stresses on both sides of a sub-edge, xx, yy, xy, Pa.
     std::array<double, 3> mean_stress(const State& state, std::int32_t side, std::size_t part);
-    const std::array<double, 3>& stress(const State& state, const ElementSide& side, std::size_t part);
+    std::array<double, 3> stress(const State& state, const ElementSide& side, std::size_t part);
     bool named(const std::vector<NodeCopy>& copies) const;
     void part(const Change& change, State& state);
     void wake_ends(State& state);
@@ -82,10 +82,12 @@ private:
     std::vector<double> record_;
     std::size_t n_events_ = 0;
     double largest_overshoot_ = 0;
-    // scratch: stresses of elements already asked for in this look
+    // scratch: stresses of packs already asked for in this look
+    std::vector<std::size_t> first_pack_;  ///< of each block
     std::vector<std::int64_t> seen_;
-    std::vector<std::array<double, 3>> stresses_;
+    std::vector<double> stresses_;  ///< shape (packs, sub-triangles, 3, lanes)
     std::int64_t look_ = 0;
+    std::vector<std::int64_t> looked_at_;  ///< per side
     std::vector<std::int32_t> candidates_;
     std::vector<double> force_;
 };

@@ -37,6 +37,11 @@ public:
     std::vector<double> lumped_mass() const;
     void add_mass(std::int32_t element, std::span<double> mass) const;
     void point_fields(std::int32_t element, const State& state, PointFields* fields) const;
+    /// Block, and number in it, of an element of the mesh.
+    struct Place {
+        std::int32_t block, local;
+    };
+    const Place& place(std::int32_t element) const { return place_[static_cast<std::size_t>(element)]; }
     int n_sub_triangles() const { return blocks_.front()->n_sub_triangles(); }
     void initial_memory(std::span<double> z, std::span<double> history) const;
 
@@ -82,9 +87,6 @@ private:
 
     std::vector<std::unique_ptr<ElementBlock>> blocks_;
     std::vector<std::size_t> z_offset_{0}, history_offset_{0}, watch_offset_;
-    struct Place {
-        std::int32_t block, local;
-    };
     std::vector<Place> place_;  ///< of each element of the mesh
     std::vector<Chunk> chunks_;
     std::size_t n_nodes_;

@@ -118,6 +118,19 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
     }
 }
 
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::pack_stress(std::size_t pack, const Evaluation& at, double* cauchy) const {
+    const PackGeometry g = geometry(pack);
+    const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+    const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
+    for (int s = 0; s < Element::n_sub; ++s, cauchy += 3 * pack_width) {
+        const auto sigma = cauchy_stress(kinematics.point[s], stress.point[s], stress.q);
+        sigma.xx.store_unaligned(cauchy);
+        sigma.yy.store_unaligned(cauchy + pack_width);
+        sigma.xy.store_unaligned(cauchy + 2 * pack_width);
+    }
+}
+
 // ---- tangents
 // ---------------------------------------------------------------------------------------------------------
 

@@ -50,7 +50,7 @@ TEST(SlidingBlock, ComesToRestAfterVSquaredOverTwoMuG) {
     for (const double v : {0.5, 1.0, 2.0}) {
         Case built = case_of("sliding_block.toml", {"initial.0.velocity=[" + std::to_string(v) + ", 0]"});
         const SolidSystem& system = *built.system;
-        const Body block(built.mesh, system, "block");
+        const Body block(*built.mesh, system, "block");
         const double mu = built.options.contact.friction;
         const test::SolidRun run = test::run_solid(system, v / (mu * gravity) + 0.05, *built.integrator);
         const double way = v * v / (2 * mu * gravity);
@@ -64,7 +64,7 @@ TEST(SlidingBlock, ComesToRestAfterVSquaredOverTwoMuG) {
 TEST(Incline, AcceleratesWithGSinMinusMuCos) {
     Case built = case_of("incline.toml");
     const SolidSystem& system = *built.system;
-    const Body block(built.mesh, system, "block");
+    const Body block(*built.mesh, system, "block");
     const double t = built.options.run.t_end, angle = 35 * std::numbers::pi / 180;
     const test::SolidRun run = test::run_solid(system, t, *built.integrator);
     const double a = gravity * (std::sin(angle) - built.options.contact.friction * std::cos(angle));
@@ -75,7 +75,7 @@ TEST(Incline, AcceleratesWithGSinMinusMuCos) {
 TEST(DiscPair, KeepsEnergyAndMomentum_RestitutionIsElastic) {
     Case built = case_of("disc_pair.toml");
     const SolidSystem& system = *built.system;
-    const Body left(built.mesh, system, "left"), right(built.mesh, system, "right");
+    const Body left(*built.mesh, system, "left"), right(*built.mesh, system, "right");
     double stored = 0;
     const test::SolidRun run =
         test::run_solid(system, built.options.run.t_end, *built.integrator,

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -95,6 +96,35 @@ TEST_F(ProgramFracture, Results_TellOfCracksAndFragments) {
         ASSERT_EQ(mass.size(), 2u);
         for (const auto& [t, sum] : mass) EXPECT_NEAR(sum, 2500 * 0.04 * 0.02, 1e-12) << "at " << t;
     }
+}
+
+TEST_F(ProgramFracture, PulledApartAndPushedTogether_FragmentsTouch) {
+    // broken after 30 us, and closed again after 60 us
+    const std::string back =
+        "boundary.1.amplitude={ type = \"table\", times = [0, 4e-5, 5e-5, 1e-4], values = [1, 1, -2, -2] }";
+    for (const std::string method : {"fracture.method=intrinsic", "fracture.method=extrinsic"})
+        for (const std::string element : {"solid.element=cst", "solid.element=compt"}) {
+            const std::string what = method + " " + element;
+            const std::vector<std::string> sets{"--set", method, element, back,
+                                                "contact={ method = \"potential\", friction = 0.4 }"};
+            energies(sets, "out");
+            std::istringstream rows(contents("out/history.csv"));
+            std::string line;
+            std::getline(rows, line);
+            std::vector<std::string> columns;
+            std::istringstream heads(line);
+            for (std::string head; std::getline(heads, head, ',');) columns.push_back(head);
+            const auto place = std::ranges::find(columns, "stored_contact [J]") - columns.begin();
+            double largest = 0;
+            while (std::getline(rows, line)) {
+                std::istringstream fields(line);
+                std::string value;
+                for (std::ptrdiff_t i = 0; i <= place; ++i) std::getline(fields, value, ',');
+                largest = std::max(largest, std::stod(value));
+            }
+            EXPECT_GT(largest, 1e-3) << "J that pieces press into each other, " << what;
+            EXPECT_LT(summary("out")["balance_error"], 5e-3) << what;
+        }
 }
 
 TEST_F(ProgramFracture, Extrinsic_BeforeAnythingBreaks_IsTheWholeSolidToTheBit) {
