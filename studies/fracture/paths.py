@@ -1,8 +1,10 @@
 """Crack paths as segments of edges: from cracks_*.vtu, or from a frame of the fields whose elements have come apart."""
 from __future__ import annotations
 
+import heapq
 from dataclasses import dataclass
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,53 +95,126 @@ def connected(ends: Array, tolerance: float) -> NDArray[np.int64]:
     return np.unique(roots, return_inverse=True)[1].ravel()
 
 
+def read_times(folder: Path, damage: float) -> Segments:
+    """All edges of a run that crack, with the time at which their damage passes `damage`, s, between frames by interpolation."""
+    root = ElementTree.parse(Path(folder) / "cracks.pvd").getroot()
+    before: dict[tuple, tuple[float, float]] = {}  # time and damage of the frame before, by ends
+    passed: dict[tuple, float] = {}
+    last = None
+    for entry in root.iter("DataSet"):
+        t, content = float(entry.attrib["timestep"]), read_vtu(Path(folder) / entry.attrib["file"])
+        if content.types.size == 0:
+            previous = t
+            continue
+        last = content.points[content.connectivity.reshape(-1, 2)]
+        keys = [tuple(row) for row in np.round(last.reshape(-1, 4), 9)]
+        for key, d in zip(keys, content.cell_data["damage"]):
+            t0, d0 = before.get(key, (previous, 0.0))
+            if d >= damage and key not in passed:
+                passed[key] = t0 + (t - t0) * (damage - d0) / max(d - d0, 1e-12) if d > d0 else t
+            before[key] = (t, d)
+        previous = t
+    if last is None:
+        return Segments(np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0), np.zeros(0))
+    times = np.array([passed.get(key, np.inf) for key in keys])
+    return Segments(last, np.asarray(content.cell_data["opening"], dtype=float),
+                    np.asarray(content.cell_data["slip"], dtype=float), times)
+
+
 def start_time(cracks: Segments) -> float:
     """When the first edge fails, s; edges that were open from the start have failed at 0 and do not count."""
     later = cracks.time_of_failure[(cracks.time_of_failure > 0) & np.isfinite(cracks.time_of_failure)]
     return float(later.min()) if later.size else float("nan")
 
 
-def tip_history(cracks: Segments, direction: Array = np.array([1.0, 0.0])) -> tuple[Array, Array]:
-    """Times of failure and how far, along a direction, the crack has come by then, m."""
-    failed = np.isfinite(cracks.time_of_failure)
-    order = np.argsort(cracks.time_of_failure[failed], kind="stable")
-    reach = np.max(cracks.ends[failed] @ np.asarray(direction), axis=1)[order]
-    return cracks.time_of_failure[failed][order], np.maximum.accumulate(reach)
+class Network:
+    """Edges that have failed as a graph that grows from a notch's tip: what hangs together with it, and when it was reached.
 
-
-def tip_speed(times: Array, reach: Array, window: float) -> float:
-    """Largest speed over a distance, m/s: of all stretches that long or just longer."""
-    best = 0.0
-    for i in range(times.size):
-        j = int(np.searchsorted(reach, reach[i] + window))
-        if j < times.size and times[j] > times[i]:
-            best = max(best, float((reach[j] - reach[i]) / (times[j] - times[i])))
-    return best
-
-
-def branching(cracks: Segments, apart_by: float, column: float) -> tuple[float, float]:
-    """Where along x, m, and when, s, a crack that runs along x parts into branches: the first of three columns in a row in which
-    failed edges are more than `apart_by` apart along y, and the time at which the second branch enters it. NaN: it does not.
+    A node is reached when a chain of failed edges leads from the tip to it: edges that fail ahead of the crack count once
+    the crack has come to them. So the tip never jumps to what has nothing to do with it.
     """
-    failed = cracks.chosen(np.isfinite(cracks.time_of_failure))
-    x, y = failed.middle.T
-    if x.size == 0:
-        return float("nan"), float("nan")
-    number = np.floor((x - x.min()) / column).astype(int)
-    entered = []
-    for k in range(number.max() + 1):
-        inside = np.nonzero(number == k)[0]
-        inside = inside[np.argsort(y[inside])]
-        gaps = np.nonzero(np.diff(y[inside]) > apart_by)[0]
-        if gaps.size == 0:
-            entered.append(np.nan)
-            continue
-        groups = np.split(failed.time_of_failure[inside], gaps + 1)
-        entered.append(float(np.sort([group.min() for group in groups])[1]))
-    for k in range(len(entered) - 2):
-        if np.all(np.isfinite(entered[k : k + 3])):
-            return float(x.min() + k * column), entered[k]
-    return float("nan"), float("nan")
+
+    def __init__(self, cracks: Segments, tip: Array, tolerance: float) -> None:
+        failed = cracks.chosen(np.isfinite(cracks.time_of_failure))
+        corners = np.round(failed.ends.reshape(-1, 2) / tolerance).astype(np.int64)
+        _, first, node = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+        self.points = failed.ends.reshape(-1, 2)[first]
+        self.edges, self.times, self.lengths = node.ravel().reshape(-1, 2), failed.time_of_failure, failed.length
+        self.neighbours: list[list[int]] = [[] for _ in self.points]
+        for e, (i, j) in enumerate(self.edges):
+            self.neighbours[i].append(e)
+            self.neighbours[j].append(e)
+        self.reached = np.full(len(self.points), np.inf)
+        self.way = np.full(len(self.points), np.inf)  # m, along the edges by which it was reached
+        self.parent = np.full(len(self.points), -1)
+        if len(self.points) == 0:
+            return
+        start = int(np.argmin(np.linalg.norm(self.points - np.asarray(tip), axis=1)))
+        self.reached[start] = self.way[start] = 0.0
+        heap, done = [(0.0, 0.0, start)], set()
+        while heap:
+            t, way, i = heapq.heappop(heap)
+            if i in done:
+                continue
+            done.add(i)
+            for e in self.neighbours[i]:
+                j = int(self.edges[e].sum() - i)
+                then = (max(t, self.times[e]), way + self.lengths[e])
+                if j not in done and then < (self.reached[j], self.way[j]):
+                    self.reached[j], self.way[j], self.parent[j] = *then, i
+                    heapq.heappush(heap, (*then, j))
+
+    def history(self, direction: Array = np.array([1.0, 0.0])) -> tuple[Array, Array]:
+        """Times and how far, along a direction, the crack has come by then, m."""
+        there = np.nonzero(np.isfinite(self.reached))[0]
+        order = there[np.argsort(self.reached[there], kind="stable")]
+        return self.reached[order], np.maximum.accumulate(self.points[order] @ np.asarray(direction))
+
+    def chain(self, i: int) -> list[int]:
+        """Nodes from i back to the tip."""
+        found = [i]
+        while self.parent[found[-1]] >= 0:
+            found.append(int(self.parent[found[-1]]))
+        return found
+
+    def fork(self, arm: float) -> tuple[Array, float]:
+        """Where, m, and when, s, the crack first parts into two arms that both get longer than `arm`, m; NaN: nowhere.
+
+        The time is that at which the later of the two arms has left the fork by one edge.
+        """
+        there = np.isfinite(self.reached)
+        children: list[list[int]] = [[] for _ in self.points]
+        for i in np.nonzero(there)[0]:
+            if self.parent[i] >= 0:
+                children[self.parent[i]].append(int(i))
+        longest = np.where(there, self.way, 0.0)  # the end furthest down the tree
+        for i in sorted(np.nonzero(there)[0], key=lambda i: -self.way[i]):
+            if self.parent[i] >= 0:
+                longest[self.parent[i]] = max(longest[self.parent[i]], longest[i])
+        forks = []
+        for i in np.nonzero(there)[0]:
+            arms = sorted(self.reached[j] for j in children[i] if longest[j] - self.way[i] > arm)
+            if len(arms) > 1:
+                forks.append((arms[1], int(i)))
+        if not forks:
+            return np.full(2, np.nan), float("nan")
+        when, where = min(forks)
+        return self.points[where], float(when)
+
+
+def speeds(times: Array, reach: Array, span: float) -> tuple[Array, Array]:
+    """Positions, m, and speeds, m/s, of a tip: slopes of straight lines through its way over stretches of time, `span`, s. Where
+    it gets from node to node the mean over a stretch counts; a stretch that begins before the crack or ends after it has none.
+    """
+    if times.size < 2 or times[-1] - times[0] <= span:
+        return np.zeros(0), np.zeros(0)
+    found = []
+    for begin in np.arange(times[0], times[-1] - span, span / 8):
+        t = np.linspace(begin, begin + span, 60)
+        way = reach[np.searchsorted(times, t, side="right") - 1]  # it rests between nodes
+        found.append((way.mean(), np.polyfit(t - begin, way, 1)[0]))
+    at, speed = np.array(found).T
+    return at, speed
 
 
 def angle_of(cracks: Segments, tip: Array, tolerance: float) -> float:
