@@ -50,6 +50,12 @@ def read_cracks(path: Path) -> Segments:
                     np.asarray(content.cell_data["slip"], dtype=float), time)
 
 
+def last_cracks(folder: Path) -> Segments:
+    """Of the last frame of a run: edges with the exact time at which they failed."""
+    entries = list(ElementTree.parse(Path(folder) / "cracks.pvd").getroot().iter("DataSet"))
+    return read_cracks(Path(folder) / entries[-1].attrib["file"])
+
+
 def apart(frame: Frame, digits: int = 9) -> Segments:
     """Edges at the same place in the reference shape that belong to different nodes; digits: decimals of a metre."""
     triangles = frame.triangles
@@ -96,29 +102,31 @@ def connected(ends: Array, tolerance: float) -> NDArray[np.int64]:
 
 
 def read_times(folder: Path, damage: float) -> Segments:
-    """All edges of a run that crack, with the time at which their damage passes `damage`, s, between frames by interpolation."""
-    root = ElementTree.parse(Path(folder) / "cracks.pvd").getroot()
-    before: dict[tuple, tuple[float, float]] = {}  # time and damage of the frame before, by ends
+    """Edges of a run that crack, as the last frame has them, with the time at which their damage passes `damage`, s."""
+    frames = []
+    for entry in ElementTree.parse(Path(folder) / "cracks.pvd").getroot().iter("DataSet"):
+        content = read_vtu(Path(folder) / entry.attrib["file"])
+        ends = content.points[content.connectivity.reshape(-1, 2)]
+        frames.append((float(entry.attrib["timestep"]), ends, content.cell_data.get("damage", np.zeros(0))))
+    cracks = last_cracks(folder)
+    return Segments(cracks.ends, cracks.opening, cracks.slip, passing_times(frames, damage))
+
+
+def passing_times(frames: list[tuple[float, Array, Array]], damage: float) -> Array:
+    """Of the edges of the last of frames (time s; ends (n, 2, 2) m; damage): when their damage passes a value, between frames
+    by interpolation; infinite if it does not. Edges that a frame does not have are undamaged in it."""
+    before: dict[tuple, tuple[float, float]] = {}  # time and damage where it was last seen, by ends
     passed: dict[tuple, float] = {}
-    last = None
-    for entry in root.iter("DataSet"):
-        t, content = float(entry.attrib["timestep"]), read_vtu(Path(folder) / entry.attrib["file"])
-        if content.types.size == 0:
-            previous = t
-            continue
-        last = content.points[content.connectivity.reshape(-1, 2)]
-        keys = [tuple(row) for row in np.round(last.reshape(-1, 4), 9)]
-        for key, d in zip(keys, content.cell_data["damage"]):
+    previous, keys = 0.0, []
+    for t, ends, values in frames:
+        keys = [tuple(row) for row in np.round(ends.reshape(-1, 4), 9)]
+        for key, d in zip(keys, values):
             t0, d0 = before.get(key, (previous, 0.0))
             if d >= damage and key not in passed:
-                passed[key] = t0 + (t - t0) * (damage - d0) / max(d - d0, 1e-12) if d > d0 else t
-            before[key] = (t, d)
+                passed[key] = t0 + (t - t0) * (damage - d0) / (d - d0) if d > d0 else t
+            before[key] = (t, float(d))
         previous = t
-    if last is None:
-        return Segments(np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0), np.zeros(0))
-    times = np.array([passed.get(key, np.inf) for key in keys])
-    return Segments(last, np.asarray(content.cell_data["opening"], dtype=float),
-                    np.asarray(content.cell_data["slip"], dtype=float), times)
+    return np.array([passed.get(key, np.inf) for key in keys])
 
 
 def start_time(cracks: Segments) -> float:
@@ -128,78 +136,79 @@ def start_time(cracks: Segments) -> float:
 
 
 class Network:
-    """Edges that have failed as a graph that grows from a notch's tip: what hangs together with it, and when it was reached.
+    """Failed edges that hang together with a notch's tip, as a tree that leaves out what closes a loop last.
 
-    A node is reached when a chain of failed edges leads from the tip to it: edges that fail ahead of the crack count once
-    the crack has come to them. So the tip never jumps to what has nothing to do with it.
+    Every node has the time of the edge by which the tree comes to it. That may be earlier than the time of the edge before it: edges
+    fail ahead of a tip, and last bridges fail far behind it.
     """
 
     def __init__(self, cracks: Segments, tip: Array, tolerance: float) -> None:
-        failed = cracks.chosen(np.isfinite(cracks.time_of_failure))
+        failed = cracks.chosen(np.isfinite(cracks.time_of_failure) & (cracks.time_of_failure > 0))  # no notches
         corners = np.round(failed.ends.reshape(-1, 2) / tolerance).astype(np.int64)
         _, first, node = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+        edges, lengths = node.ravel().reshape(-1, 2), failed.length
         self.points = failed.ends.reshape(-1, 2)[first]
-        self.edges, self.times, self.lengths = node.ravel().reshape(-1, 2), failed.time_of_failure, failed.length
-        self.neighbours: list[list[int]] = [[] for _ in self.points]
-        for e, (i, j) in enumerate(self.edges):
-            self.neighbours[i].append(e)
-            self.neighbours[j].append(e)
-        self.reached = np.full(len(self.points), np.inf)
-        self.way = np.full(len(self.points), np.inf)  # m, along the edges by which it was reached
+        self.time = np.full(len(self.points), np.inf)
+        self.way = np.full(len(self.points), np.inf)  # m, along the tree
         self.parent = np.full(len(self.points), -1)
+        self.in_order: list[int] = []  # parents before children
         if len(self.points) == 0:
             return
+        neighbours: list[list[int]] = [[] for _ in self.points]
+        for e, (i, j) in enumerate(edges):
+            neighbours[i].append(e)
+            neighbours[j].append(e)
         start = int(np.argmin(np.linalg.norm(self.points - np.asarray(tip), axis=1)))
-        self.reached[start] = self.way[start] = 0.0
-        heap, done = [(0.0, 0.0, start)], set()
+        heap, done = [(0.0, 0.0, start, -1, 0.0)], set()
         while heap:
-            t, way, i = heapq.heappop(heap)
+            latest, way, i, parent, time = heapq.heappop(heap)
             if i in done:
                 continue
             done.add(i)
-            for e in self.neighbours[i]:
-                j = int(self.edges[e].sum() - i)
-                then = (max(t, self.times[e]), way + self.lengths[e])
-                if j not in done and then < (self.reached[j], self.way[j]):
-                    self.reached[j], self.way[j], self.parent[j] = *then, i
-                    heapq.heappush(heap, (*then, j))
+            self.in_order.append(i)
+            self.way[i], self.parent[i], self.time[i] = way, parent, time
+            for e in neighbours[i]:
+                j, t = int(edges[e].sum() - i), float(failed.time_of_failure[e])
+                if j not in done:
+                    heapq.heappush(heap, (max(latest, t), way + float(lengths[e]), j, i, t))
 
     def history(self, direction: Array = np.array([1.0, 0.0])) -> tuple[Array, Array]:
         """Times and how far, along a direction, the crack has come by then, m."""
-        there = np.nonzero(np.isfinite(self.reached))[0]
-        order = there[np.argsort(self.reached[there], kind="stable")]
-        return self.reached[order], np.maximum.accumulate(self.points[order] @ np.asarray(direction))
-
-    def chain(self, i: int) -> list[int]:
-        """Nodes from i back to the tip."""
-        found = [i]
-        while self.parent[found[-1]] >= 0:
-            found.append(int(self.parent[found[-1]]))
-        return found
+        order = np.array(self.in_order, dtype=int)
+        order = order[np.argsort(self.time[order], kind="stable")]
+        return self.time[order], np.maximum.accumulate(self.points[order] @ np.asarray(direction))
 
     def fork(self, arm: float) -> tuple[Array, float]:
         """Where, m, and when, s, the crack first parts into two arms that both get longer than `arm`, m; NaN: nowhere.
 
-        The time is that at which the later of the two arms has left the fork by one edge.
+        The time of an arm is that of the edge that fails first in its first `arm` metres; that of a fork the time of its second arm.
         """
-        there = np.isfinite(self.reached)
-        children: list[list[int]] = [[] for _ in self.points]
-        for i in np.nonzero(there)[0]:
-            if self.parent[i] >= 0:
-                children[self.parent[i]].append(int(i))
-        longest = np.where(there, self.way, 0.0)  # the end furthest down the tree
-        for i in sorted(np.nonzero(there)[0], key=lambda i: -self.way[i]):
-            if self.parent[i] >= 0:
-                longest[self.parent[i]] = max(longest[self.parent[i]], longest[i])
+        end = np.arange(len(self.points))  # of the longest way down the tree
+        children: dict[int, list[int]] = {}
+        for i in reversed(self.in_order):
+            parent = int(self.parent[i])
+            if parent >= 0:
+                children.setdefault(parent, []).append(i)
+                if self.way[end[i]] > self.way[end[parent]]:
+                    end[parent] = end[i]
+
+        def begins(fork: int, child: int) -> float:
+            i, first = int(end[child]), np.inf
+            while i != fork:
+                if self.way[i] - self.way[fork] <= arm:
+                    first = min(first, self.time[i])
+                i = int(self.parent[i])
+            return first
+
         forks = []
-        for i in np.nonzero(there)[0]:
-            arms = sorted(self.reached[j] for j in children[i] if longest[j] - self.way[i] > arm)
-            if len(arms) > 1:
-                forks.append((arms[1], int(i)))
+        for i, arms in children.items():
+            begun = sorted(begins(i, j) for j in arms if self.way[end[j]] - self.way[i] > arm)
+            if len(begun) > 1:
+                forks.append((float(begun[1]), i))
         if not forks:
             return np.full(2, np.nan), float("nan")
         when, where = min(forks)
-        return self.points[where], float(when)
+        return self.points[where], when
 
 
 def speeds(times: Array, reach: Array, span: float) -> tuple[Array, Array]:

@@ -207,15 +207,17 @@ def draw(measured: dict, figures: Path) -> None:
     style.panel_label(panels[0], "a) sliding to rest")
     discs = measured["discs"]
     t = np.array(discs["t"]) * 1e6
-    for key, label, colour in zip(("kinetic", "material", "contact"), ("kinetic", "stored in discs", "stored in contact"), style.CYCLE):
+    for key, label, colour in zip(("kinetic", "material", "contact"), ("kinetic", "discs", "contact"), style.CYCLE):
         panels[1].plot(t, np.array(discs[key]) / discs["kinetic"][0], color=colour, label=label)
     panels[1].set(xlabel="time [µs]", ylabel="energy over that at the start", ylim=(0, 1.05))
-    panels[1].legend()
+    panels[1].legend(loc=(0.6, 0.4))
     style.panel_label(panels[1], "b) two discs")
     for (way, found), colour, marker in zip(measured["order"].items(), style.CYCLE, "os"):
         panels[2].loglog(np.array(found["steps"]) * 1e6, found["rms"], marker + "-", color=colour, ms=3,
-                         label=f"{'in one triangle' if way == 'stays' else 'from one to the next'}: {found['order']:.2f}")
+                         label=f"{way}: {found['order']:.2f}")
     panels[2].set(xlabel="step [µs]", ylabel="energy error, RMS over gaps")
-    panels[2].legend()
+    panels[2].set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
+    panels[2].minorticks_off()
+    panels[2].legend(loc="center left", bbox_to_anchor=(0.02, 0.55))
     style.panel_label(panels[2], "c) order")
     style.save(figure, figures / "contact.png")
