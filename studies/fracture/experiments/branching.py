@@ -24,6 +24,7 @@ MESHES = {"full": 3, "quick": 1}           # of sizes a little different: as man
 T_END = 80e-6
 FRAME = 2e-6                               # s, time between frames; fields of every tenth are kept
 CRACKED = 0.5                              # damage at which an edge counts as cracked
+PARTING = 0.1                              # damage along whose arms the zone of softening parts
 ARM = 4e-3                                 # m, a branch is longer
 SPAN = 6e-6                                # s, over which speeds are taken
 TIP = np.array([NOTCH, HEIGHT / 2])
@@ -67,9 +68,11 @@ def measure_cracks(cracks: Segments) -> dict:
 def measure_run(folder: Path) -> dict:
     found = measure_cracks(read_times(folder, CRACKED))
     history = read_table(folder / "history.csv")
+    first_at, first = Network(read_times(folder, PARTING), TIP, 1e-7).fork(ARM)
     failed = last_cracks(folder)
     failed = failed.chosen(np.isfinite(failed.time_of_failure))
     return found | {
+        "parting_us": first * 1e6, "parting_mm": float(first_at[0]) * 1e3,
         "softening_us": float(history.t[np.argmax(history["dissipated_fracture"] > 0)]) * 1e6, "failed_us": start_time(failed) * 1e6,
         "cracked_mm": float(failed.length.sum()) * 1e3, "dissipated_over_cracked_G": float(
             history["dissipated_fracture"][-1] / (failed.length.sum() * STRENGTH["G_I"])) if failed.length.size else float("nan"),
@@ -80,10 +83,14 @@ def measure(runs: Path, profile: str) -> dict:
     found = {name: measure_run(runs / name) for name in cases(profile)}
     extrinsic = [f for name, f in found.items() if "extrinsic" in name]
     metrics = {}
-    for name, key in (("start", "start_us"), ("softening", "softening_us"), ("failure", "failed_us"), ("time", "branching_us")):
-        metrics[f"branching_{name}_us"] = float(np.mean([f[key] for f in extrinsic]))
-        metrics[f"branching_{name}_us_spread"] = float(np.ptp([f[key] for f in extrinsic]))
-    metrics |= {"branching_at_mm": float(np.mean([f["branching_mm"] for f in extrinsic])),
+    for name, key in (("start", "start_us"), ("softening", "softening_us"), ("failure", "failed_us"), ("parting", "parting_us"),
+                      ("parting_at", "parting_mm"), ("time", "branching_us"), ("at", "branching_mm")):
+        values = np.array([f[key] for f in extrinsic])
+        values = values[np.isfinite(values)]  # of the runs that branch
+        unit = key.split("_")[-1]
+        for suffix, of in (("", np.mean), ("_min", np.min), ("_max", np.max)) if len(extrinsic) > 1 else (("", np.mean),):
+            metrics[f"branching_{name}_{unit}{suffix}"] = float(of(values)) if values.size else float("nan")
+    metrics |= {"branching_runs_that_branch": sum(np.isfinite(f["branching_us"]) for f in extrinsic) / len(extrinsic),
                 "branching_max_speed_over_rayleigh": max(f["speed_over_rayleigh"] for f in extrinsic),
                 "branching_dissipated_over_cracked_G": max(f["dissipated_over_cracked_G"] for f in extrinsic),
                 "branching_energy_balance_error": max(f["balance_error"] for f in found.values())}
@@ -110,6 +117,7 @@ def draw(measured: dict, figures: Path) -> None:
         times = np.array(found["t"])
         panels[1, 0].step(times[times > 0] * 1e6, np.array(found["reach"])[times > 0] * 1e3, where="post", color=colour, label=label)
         panels[1, 0].plot(found["branching_us"], found["branching_mm"], "o", color=colour, ms=4)
+        panels[1, 0].plot(found["parting_us"], found["parting_mm"], "v", color=colour, ms=4)
         panels[1, 1].plot(np.array(found["at"]) * 1e3, np.array(found["speed"]) / RAYLEIGH, color=colour)
     panels[0, 1].set(xlim=(45, 100), ylim=(0, 40), aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
     style.panel_label(panels[0, 1], "b) failed edges of all runs")
@@ -117,7 +125,7 @@ def draw(measured: dict, figures: Path) -> None:
     panels[1, 0].axvline(10, color="0.85", zorder=0)
     panels[1, 0].set(xlabel="time [µs]", ylabel="tip [mm]")
     panels[1, 0].legend()
-    style.panel_label(panels[1, 0], "c) tip; circle: branches; grey: asked")
+    style.panel_label(panels[1, 0], "c) tip; ●: branches, ▼: zone parts")
     panels[1, 1].axhline(0.6, color="0.8", zorder=0)
     panels[1, 1].set(xlabel="tip [mm]", ylabel="speed over Rayleigh's", ylim=(0, 0.8))
     style.panel_label(panels[1, 1], "d) speed, mean over 6 µs")
