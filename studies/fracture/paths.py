@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from studies.common.fields import Frame, read_vtu
 
@@ -139,10 +140,11 @@ class Network:
     """Failed edges that hang together with a notch's tip, as a tree that leaves out what closes a loop last.
 
     Every node has the time of the edge by which the tree comes to it. That may be earlier than the time of the edge before it: edges
-    fail ahead of a tip, and last bridges fail far behind it.
+    fail ahead of a tip, and last bridges fail far behind it. Chains that end less than `bridge` (m) from each other hang together
+    by what still holds there, if by nothing else.
     """
 
-    def __init__(self, cracks: Segments, tip: Array, tolerance: float) -> None:
+    def __init__(self, cracks: Segments, tip: Array, tolerance: float, bridge: float = 0.0) -> None:
         failed = cracks.chosen(np.isfinite(cracks.time_of_failure) & (cracks.time_of_failure > 0))  # no notches
         corners = np.round(failed.ends.reshape(-1, 2) / tolerance).astype(np.int64)
         _, first, node = np.unique(corners, axis=0, return_index=True, return_inverse=True)
@@ -154,10 +156,20 @@ class Network:
         self.in_order: list[int] = []  # parents before children
         if len(self.points) == 0:
             return
-        neighbours: list[list[int]] = [[] for _ in self.points]
-        for e, (i, j) in enumerate(edges):
-            neighbours[i].append(e)
-            neighbours[j].append(e)
+        neighbours: list[list[tuple[int, float, float, float]]] = [[] for _ in self.points]  # node, cost, length, time
+        for (i, j), length, t in zip(edges, lengths, failed.time_of_failure):
+            neighbours[i].append((int(j), float(t), float(length), float(t)))
+            neighbours[j].append((int(i), float(t), float(length), float(t)))
+        chain_of = np.zeros(len(self.points), dtype=int)
+        chain_of[edges.ravel()] = np.repeat(connected(failed.ends, tolerance), 2)
+        bridges = cKDTree(self.points).query_pairs(bridge) if bridge > 0 else set()
+        first_time = [min(t for _, _, _, t in around) for around in neighbours]
+        for i, j in bridges:
+            if chain_of[i] != chain_of[j]:
+                gap = float(np.linalg.norm(self.points[i] - self.points[j]))
+                # dearer than every edge, the shorter the better
+                neighbours[i].append((j, 1.0 + gap, gap, first_time[j]))
+                neighbours[j].append((i, 1.0 + gap, gap, first_time[i]))
         start = int(np.argmin(np.linalg.norm(self.points - np.asarray(tip), axis=1)))
         heap, done = [(0.0, 0.0, start, -1, 0.0)], set()
         while heap:
@@ -167,10 +179,9 @@ class Network:
             done.add(i)
             self.in_order.append(i)
             self.way[i], self.parent[i], self.time[i] = way, parent, time
-            for e in neighbours[i]:
-                j, t = int(edges[e].sum() - i), float(failed.time_of_failure[e])
+            for j, cost, length, t in neighbours[i]:
                 if j not in done:
-                    heapq.heappush(heap, (max(latest, t), way + float(lengths[e]), j, i, t))
+                    heapq.heappush(heap, (max(latest, cost), way + length, j, i, t))
 
     def history(self, direction: Array = np.array([1.0, 0.0])) -> tuple[Array, Array]:
         """Times and how far, along a direction, the crack has come by then, m."""
@@ -181,7 +192,7 @@ class Network:
     def fork(self, arm: float) -> tuple[Array, float]:
         """Where, m, and when, s, the crack first parts into two arms that both get longer than `arm`, m; NaN: nowhere.
 
-        The time of an arm is that of the edge that fails first in its first `arm` metres; that of a fork the time of its second arm.
+        The time of an arm is that of the edge that fails first in twice that length; that of a fork the time of its second arm.
         """
         end = np.arange(len(self.points))  # of the longest way down the tree
         children: dict[int, list[int]] = {}
@@ -195,7 +206,7 @@ class Network:
         def begins(fork: int, child: int) -> float:
             i, first = int(end[child]), np.inf
             while i != fork:
-                if self.way[i] - self.way[fork] <= arm:
+                if self.way[i] - self.way[fork] <= 2 * arm:  # what is nearest may fail last
                     first = min(first, self.time[i])
                 i = int(self.parent[i])
             return first

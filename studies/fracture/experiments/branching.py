@@ -54,21 +54,21 @@ def cases(profile: str) -> dict[str, Deck]:
     return found
 
 
-def measure_cracks(cracks: Segments) -> dict:
+def measure_cracks(cracks: Segments, bridge: float) -> dict:
     """From edges and the times at which they cracked."""
-    network = Network(cracks, TIP, 1e-7)
-    times, reach = network.history()
+    times, reach = Network(cracks, TIP, 1e-7).history()
     at, speed = speeds(times[times > 0], reach[times > 0], SPAN)
-    where, when = network.fork(ARM)
+    where, when = Network(cracks, TIP, 1e-7, bridge).fork(ARM)
     return {"start_us": start_time(cracks) * 1e6, "branching_us": when * 1e6, "branching_mm": float(where[0]) * 1e3,
             "speed_over_rayleigh": float(speed.max()) / RAYLEIGH if speed.size else float("nan"),
             "t": times.tolist(), "reach": reach.tolist(), "at": at.tolist(), "speed": speed.tolist()}
 
 
-def measure_run(folder: Path) -> dict:
-    found = measure_cracks(read_times(folder, CRACKED))
+def measure_run(folder: Path, size: float) -> dict:
+    bridge = 3 * size
+    found = measure_cracks(read_times(folder, CRACKED), bridge)
     history = read_table(folder / "history.csv")
-    first_at, first = Network(read_times(folder, PARTING), TIP, 1e-7).fork(ARM)
+    first_at, first = Network(read_times(folder, PARTING), TIP, 1e-7, bridge).fork(ARM)
     failed = last_cracks(folder)
     failed = failed.chosen(np.isfinite(failed.time_of_failure))
     return found | {
@@ -80,7 +80,7 @@ def measure_run(folder: Path) -> dict:
 
 
 def measure(runs: Path, profile: str) -> dict:
-    found = {name: measure_run(runs / name) for name in cases(profile)}
+    found = {name: measure_run(runs / name, SIZE[profile]) for name in cases(profile)}
     extrinsic = [f for name, f in found.items() if "extrinsic" in name]
     metrics = {}
     for name, key in (("start", "start_us"), ("softening", "softening_us"), ("failure", "failed_us"), ("parting", "parting_us"),

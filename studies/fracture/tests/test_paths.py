@@ -102,6 +102,15 @@ class TestBranches(unittest.TestCase):
         self.assertTrue(np.isnan(Network(segments(trunk, other), TIP, TOLERANCE).fork(4e-3)[1]))
 
 
+    def test_ArmBehindABridge_HangsByIt(self):
+        trunk = chain([(0.05, 0), (0.08, 0)], 10e-6, 1000.0)
+        arm = chain([(0.065, 0.0015), (0.075, 0.008)], 27e-6, 1000.0)
+        self.assertTrue(np.isnan(Network(segments(trunk, arm), TIP, TOLERANCE, 1.4e-3).fork(4e-3)[1]))
+        where, when = Network(segments(trunk, arm), TIP, TOLERANCE, 1.6e-3).fork(4e-3)
+        np.testing.assert_allclose(where, [0.065, 0], atol=1e-9)
+        self.assertAlmostEqual(when, 28e-6, delta=0.2e-6)
+
+
 class TestAngle(unittest.TestCase):
     def test_Angle_IsThatOfTheCrackAtTheTip(self):
         tip = np.array([0.05, 0.025])
