@@ -77,8 +77,8 @@ def sweeps(profile: str) -> dict[str, tuple[Deck, list[Deck]]]:
     for way, (velocity, x) in WEDGES.items():
         for halving in range(HALVINGS[profile] + 1):
             step = STEP / 2**halving
-            # gaps over a range of many steps' way, at all fractions of it
-            gaps = 1e-3 + 3e-4 * np.arange(GAPS[profile]) / GAPS[profile]
+            # gaps over a range of many steps' way, by the golden section: at all fractions of every step's way
+            gaps = 1e-3 + 3e-4 * np.mod((5**0.5 - 1) / 2 * np.arange(GAPS[profile]), 1)
             found[f"contact-order-{way}-{halving}"] = (wedge_deck(), [{
                 "mesh": {"parameters": {"gap": float(gap), "x": x}}, "initial": {"velocity": list(velocity)},
                 "integrator": {"dt": step}, "output": {"history": step}} for gap in gaps])
