@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Mapping, Union
 
-Asked = Union[float, bool]
+Asked = Union[float, bool, tuple[float, float]]
 
 SKIPPED = "skipped"  # value of a metric whose runs need a program that is not there; the summary's `skipped` says why
 
 
 @dataclass(frozen=True)
 class Bound:
-    """What is asked of a metric: a number is an upper bound, or a lower one, True or False the value itself."""
+    """What is asked of a metric: a number is an upper bound, or a lower one, two are both, True or False the value itself."""
 
     full: Asked
     quick: Asked
@@ -32,12 +32,16 @@ def kept(bound: Bound, asked: Asked, measured: object) -> bool:
         return measured is asked
     if not isinstance(measured, (int, float)) or isinstance(measured, bool) or not math.isfinite(measured):
         return False
+    if isinstance(asked, tuple):
+        return asked[0] <= measured <= asked[1]
     return measured >= asked if bound.at_least else measured <= asked
 
 
 def shown(value: object) -> str:
     if isinstance(value, bool) or value is None:
         return {True: "true", False: "false", None: "missing"}[value]
+    if isinstance(value, tuple):
+        return " to ".join(shown(v) for v in value)
     return f"{value:.3g}" if isinstance(value, (int, float)) else str(value)
 
 
@@ -52,7 +56,7 @@ def check(summary: dict, bounds: Mapping[str, Bound]) -> tuple[str, bool]:
         measured = metrics.get(name)
         fine = kept(bound, asked, measured)
         good = good and fine
-        wanted = shown(asked) if isinstance(asked, bool) else f"{'>=' if bound.at_least else '<='} {shown(asked)}"
+        wanted = shown(asked) if isinstance(asked, (bool, tuple)) else f"{'>=' if bound.at_least else '<='} {shown(asked)}"
         lines.append(f"{name:44} {wanted:>12} {shown(measured):>12}{'' if fine else '   MISSED'}")
     lines += [f"{name:44} {'reported':>12} {shown(value):>12}" for name, value in metrics.items() if name not in bounds]
     return "\n".join(lines), good

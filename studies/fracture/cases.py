@@ -23,3 +23,9 @@ def _all(experiments: dict, profile: str) -> dict[str, Deck]:
                 raise ValueError(f"two cases are called {name}")
             found[name] = deck
     return found
+
+
+def sweeps(profile: str, experiment: str | None = None) -> dict[str, tuple[Deck, list[Deck]]]:
+    """Of one experiment or of all: a deck and the changes of each of its variants, by the name of the sweep."""
+    modules = EXPERIMENTS.values() if experiment is None else [EXPERIMENTS[experiment]]
+    return {name: what for module in modules if hasattr(module, "sweeps") for name, what in module.sweeps(profile).items()}

@@ -23,6 +23,14 @@ def summary(extent="full", **changes):
 
 
 class TestCheck(unittest.TestCase):
+    def test_TwoNumbers_AreBothBounds(self):
+        bounds = {"angle": Bound((60.0, 80.0), (50.0, 90.0))}
+        for extent, value, good in (("full", 60, True), ("full", 81.0, False), ("full", 59.9, False), ("quick", 81.0, True),
+                                    ("full", math.nan, False)):
+            text, found = check({"extent": extent, "metrics": {"angle": value}}, bounds)
+            self.assertEqual(found, good, (extent, value))
+        self.assertIn("60 to 80", text)
+
     def test_Metrics_AtTheirBounds_Pass(self):
         for extent in ("full", "quick"):
             self.assertTrue(check(summary(extent), BOUNDS)[1])

@@ -6,13 +6,17 @@ A module has
                              folder with a folder for each case
     FIGURES                  names of its figures, and
     draw(measured, figures)  which makes them from what was measured, into the folder `figures`
+and may have
+    sweeps(profile)          by name a deck and the changes of its variants, of which only history.csv is kept, as 0.csv, 1.csv, ...
+    MATRICES                 cases of which `gneiss matrices` is asked, into the folder `matrices` of the case
 CHECKED holds those whose decks are only checked (`gneiss check`) so far: `cases` is all that is asked of them.
 """
 from __future__ import annotations
 
 from types import ModuleType
 
-from studies.fracture.experiments import branching, brazilian, dcb, joint, kalthoff, speed
+from studies.fracture.experiments import branching, brazilian, contact, dcb, joint, kalthoff, speed
 
-EXPERIMENTS: dict[str, ModuleType] = {"joint": joint, "dcb": dcb, "speed": speed, "brazilian": brazilian}
-CHECKED: dict[str, ModuleType] = {"branching": branching, "kalthoff": kalthoff}
+EXPERIMENTS: dict[str, ModuleType] = {"joint": joint, "dcb": dcb, "speed": speed, "brazilian": brazilian, "contact": contact,
+                                      "branching": branching, "kalthoff": kalthoff}
+CHECKED: dict[str, ModuleType] = {}

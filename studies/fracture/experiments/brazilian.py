@@ -66,6 +66,8 @@ def elastic_deck(element: str, size: float) -> Deck:
 def breaking_deck(element: str, size: float, profile: str, aligned: bool, method: str = "intrinsic") -> Deck:
     result = base(element, size, aligned)
     result["material"][0]["strength"] = STRENGTH
+    if method == "extrinsic":  # halves that have come apart touch
+        result["contact"] = {"method": "potential", "friction": STRENGTH["residual_friction"]}
     t_end = T_END[profile]
     return result | {
         "fracture": {"method": method} | ({"penalty": PENALTY} if method == "intrinsic" else {}),
@@ -82,6 +84,7 @@ def cases(profile: str) -> dict[str, Deck]:
     found = {f"brazilian-elastic-{element}": elastic_deck(element, elastic) for element in ("cst", "compt")}
     for element in ("cst", "compt") if profile == "full" else ("compt",):
         found[f"brazilian-{element}"] = breaking_deck(element, breaking, profile, aligned=True)
+    found["brazilian-compt-extrinsic"] = breaking_deck("compt", breaking, profile, aligned=True, method="extrinsic")
     if profile == "full":
         found["brazilian-compt-free"] = breaking_deck("compt", breaking, profile, aligned=False)
     return found
@@ -143,11 +146,13 @@ def measure(runs: Path, profile: str) -> dict:
     broken = {name: measure_breaking(runs / name, T_END[profile]) for name in names if "elastic" not in name}
     aligned = {name: b for name, b in broken.items() if not name.endswith("free")}
     ratios = [b["strength_ratio"] for b in aligned.values()]
+    extrinsic = broken["brazilian-compt-extrinsic"]["strength_ratio"]
     free = {"brazilian_strength_ratio_free": broken["brazilian-compt-free"]["strength_ratio"]} if profile == "full" else {}
     return {"elastic": elastic, "broken": broken, "metrics": {
         "brazilian_center_stress_error": max(e["error"] for e in elastic.values()),
         "brazilian_center_stress_over_point_load": elastic["brazilian-elastic-compt"]["of_point_load"],
         "brazilian_strength_ratio_min": min(ratios), "brazilian_strength_ratio_max": max(ratios),
+        "brazilian_strength_ratio": broken["brazilian-compt"]["strength_ratio"], "brazilian_strength_ratio_extrinsic": extrinsic,
         "brazilian_split_share": min(b["share"] for b in aligned.values()),
         "brazilian_split_away": max(b["away"] for b in aligned.values()),
         "brazilian_platens_unbalanced": max(b["unbalanced"] for b in broken.values()), **free}}
@@ -160,19 +165,23 @@ def draw(measured: dict, figures: Path) -> None:
     from matplotlib.collections import LineCollection
 
     broken = measured["broken"]
-    names = {"brazilian-cst": "CST", "brazilian-compt": "COMPT", "brazilian-compt-free": "COMPT, free mesh"}
-    rows = 1 if len(broken) == 1 else 2
-    figure, panels = style.plt.subplots(rows, 2, figsize=(style.FULL_WIDTH, 2.8 * rows))
+    names = {"brazilian-cst": "CST", "brazilian-compt": "COMPT", "brazilian-compt-extrinsic": "COMPT, extrinsic",
+             "brazilian-compt-free": "COMPT, free mesh"}
+    columns = 3
+    rows = -(-(len(broken) + 1) // columns)
+    figure, panels = style.plt.subplots(rows, columns, figsize=(style.FULL_WIDTH, 2.6 * rows))
     panels = panels.ravel()
+    for panel in panels[len(broken) + 1 :]:
+        panel.set_axis_off()
     for (name, found), colour in zip(broken.items(), style.CYCLE):
         panels[0].plot(np.array(found["t"]) * 1e6, 2 * np.array(found["force"]) / (np.pi * 2 * RADIUS) / STRENGTH["tensile"],
                        color=colour, label=names[name])
     panels[0].axhspan(0.85, 1.15, color="0.93", zorder=0)
     panels[0].set(xlabel="time [µs]", ylabel="2P/(πDh) over tensile strength")
-    panels[0].legend()
+    panels[0].legend(fontsize=6)
     style.panel_label(panels[0], "a) load")
     around = np.linspace(0, 2 * np.pi, 200)
-    for letter, panel, (name, found) in zip("bcd", panels[1:], broken.items()):
+    for letter, panel, (name, found) in zip("bcde", panels[1:], broken.items()):
         panel.plot(25 * np.cos(around), 25 * np.sin(around), color=style.GREY, lw=0.7)
         for sign in (1, -1):
             arc = sign * np.pi / 2 + np.linspace(-ALPHA, ALPHA, 20)

@@ -12,6 +12,7 @@ from studies.common.results import read_table
 YOUNG, DENSITY = 30e9, 2500.0
 SPEED = (YOUNG / DENSITY) ** 0.5  # m/s: nu = 0
 PENALTIES = [5.0, 20.0, 80.0]
+EXTRINSIC = "extrinsic"
 CELL = 5e-3                       # m; sub-edges are half of it
 HEIGHT = 2 * CELL
 PULSE = 0.15 / SPEED              # s: sixty sub-edges
@@ -28,8 +29,9 @@ def slowed(penalty: float, factor: float) -> float:
     return (1 + factor / penalty) ** -0.5
 
 
-def deck(element: str, penalty: float | None) -> Deck:
-    slowest = slowed(penalty, 2.5) if penalty else 1.0
+def deck(element: str, penalty: float | str | None) -> Deck:
+    """Intrinsic joints of a penalty; EXTRINSIC: sides that could open; None: nothing that cracks."""
+    slowest = slowed(penalty, 2.5) if isinstance(penalty, float) else 1.0
     length = FAR + 0.05
     t_end = FAR / (SPEED * slowest) + 1.1 * PULSE
     # what comes back from the far end stays behind: it absorbs
@@ -48,19 +50,21 @@ def deck(element: str, penalty: float | None) -> Deck:
         "output": {"history": PULSE / 400,
                    "probes": [{"name": name, "at": [x, HEIGHT / 2 + CELL / 8]} for name, x in (("near", NEAR), ("far", FAR))]},
     }
-    if penalty:
+    if penalty == EXTRINSIC:
+        result["fracture"] = {"method": "extrinsic"}
+    elif penalty:
         result["fracture"] = {"method": "intrinsic", "penalty": penalty}
     else:
         del result["material"][0]["strength"]
     return result
 
 
-def name_of(element: str, penalty: float | None) -> str:
-    return f"speed-{element}-" + (f"penalty{penalty:g}" if penalty else "without")
+def name_of(element: str, penalty: float | str | None) -> str:
+    return f"speed-{element}-" + (penalty if isinstance(penalty, str) else f"penalty{penalty:g}" if penalty else "without")
 
 
 def cases(profile: str) -> dict[str, Deck]:
-    return {name_of(element, penalty): deck(element, penalty) for element in SERIES for penalty in [None, *PENALTIES]}
+    return {name_of(element, penalty): deck(element, penalty) for element in SERIES for penalty in [None, EXTRINSIC, *PENALTIES]}
 
 
 def lag(t: np.ndarray, first: np.ndarray, second: np.ndarray) -> float:
@@ -77,12 +81,13 @@ def lag(t: np.ndarray, first: np.ndarray, second: np.ndarray) -> float:
 def measure(runs: Path, profile: str) -> dict:
     found: dict = {}
     for element in SERIES:
-        for penalty in [None, *PENALTIES]:
+        for penalty in [None, EXTRINSIC, *PENALTIES]:
             probes = read_table(runs / name_of(element, penalty) / "probes.csv")
             found.setdefault(element, {})[str(penalty or "without")] = \
                 (FAR - NEAR) / lag(probes.t, probes["near.v_x"], probes["far.v_x"])
     ratios = {element: {str(p): speeds[str(p)] / speeds["without"] for p in PENALTIES} for element, speeds in found.items()}
     metrics = {"speed_without_joints_error": max(abs(s["without"] / SPEED - 1) for s in found.values())}
+    metrics["extrinsic_speed_error"] = max(abs(s[EXTRINSIC] / s["without"] - 1) for s in found.values())
     for element, by_penalty in ratios.items():
         for p in PENALTIES:
             metrics[f"intrinsic_speed_ratio_{element}_p{p:g}"] = by_penalty[str(p)]

@@ -3,8 +3,8 @@ import unittest
 
 import numpy as np
 
-from studies.fracture.cases import checked_decks, decks
-from studies.fracture.experiments import CHECKED, EXPERIMENTS, branching, brazilian, dcb, kalthoff, speed
+from studies.fracture.cases import checked_decks, decks, sweeps
+from studies.fracture.experiments import CHECKED, EXPERIMENTS, branching, brazilian, contact, dcb, kalthoff, speed
 from studies.fracture.experiments.joint import HALF, LAW, turning_points
 
 
@@ -22,10 +22,34 @@ class TestDecks(unittest.TestCase):
 
     def test_Method_IsOneKey(self):
         for module in (branching, kalthoff):
-            for a, b in zip(module.cases("full").values(), module.cases("full", "extrinsic").values()):
-                self.assertEqual(b["fracture"], {"method": "extrinsic"})
-                self.assertEqual({k: v for k, v in a.items() if k not in ("fracture", "title")},
-                                 {k: v for k, v in b.items() if k not in ("fracture", "title")})
+            a, b = (module.deck("compt", 1e-3, method) for method in ("intrinsic", "extrinsic"))
+            self.assertEqual(b["fracture"], {"method": "extrinsic"})
+            self.assertEqual({k: v for k, v in a.items() if k not in ("fracture", "title")},
+                             {k: v for k, v in b.items() if k not in ("fracture", "title")})
+
+    def test_EveryTenthFrame_IsTheLastOneToo(self):
+        # the others lose their fields, and the last one is drawn
+        for module in (branching, kalthoff):
+            self.assertAlmostEqual(module.T_END / module.FRAME / 10 % 1, 0.0)
+
+    def test_Sweeps_HaveEnoughGapsAndTheirStep(self):
+        for profile in ("full", "quick"):
+            found = sweeps(profile)
+            self.assertEqual(len(found), 2 * (contact.HALVINGS[profile] + 1))
+            self.assertGreaterEqual(contact.GAPS[profile], 32)
+            for name, (_, changes) in found.items():
+                self.assertEqual(len({c["mesh"]["parameters"]["gap"] for c in changes}), contact.GAPS[profile], name)
+        self.assertEqual(contact.HALVINGS["full"], 4)
+
+    def test_Masses_AreAskedForCasesThatRun(self):
+        self.assertLessEqual(set(contact.MATRICES), set(contact.cases("quick")))
+
+
+class TestBodies(unittest.TestCase):
+    def test_Parts_AreWhatElementsJoin(self):
+        number = contact.parts(7, np.array([[5, 2, 1], [1, 3, 5], [0, 4, 6]]))
+        self.assertEqual([number[i] == number[2] for i in range(7)], [False, True, True, True, False, True, False])
+        self.assertEqual(number[4], number[6])
 
 
 class TestClosedForms(unittest.TestCase):

@@ -4,9 +4,10 @@ import unittest
 import numpy as np
 
 from studies.common.fields import Frame
-from studies.fracture.paths import Segments, angle_of, apart, branching, connected, start_time, tip_history, tip_speed
+from studies.fracture.paths import Network, Segments, angle_of, apart, connected, passing_times, speeds, start_time
 
 SIZE = 1e-3
+TIP, TOLERANCE = np.array([0.05, 0.0]), 1e-7
 
 
 def chain(points, t_first, speed):
@@ -40,37 +41,74 @@ class TestRunningCrack(unittest.TestCase):
         self.assertAlmostEqual(start_time(self.cracks), 11e-6)
 
     def test_Tip_RunsAtItsSpeed(self):
-        times, reach = tip_history(self.cracks)
+        times, reach = Network(self.cracks, TIP, TOLERANCE).history()
         self.assertAlmostEqual(reach[0], 0.05)
         self.assertAlmostEqual(reach[-1], 0.07)
-        self.assertAlmostEqual(tip_speed(times[1:], reach[1:], 5e-3), 1000.0, delta=1)
+        at, speed = speeds(times[times > 0], reach[times > 0], 6e-6)
+        self.assertAlmostEqual(float(speed.min()), 1000.0, delta=80)
+        self.assertAlmostEqual(float(speed.max()), 1000.0, delta=80)
+        self.assertGreater(at.min(), 0.05)
+        self.assertLess(at.max(), 0.07)
+
+    def test_WhatHangsTogetherInTheEnd_CountsAtItsOwnTime(self):
+        # a bridge behind the tip fails late
+        bridge, ahead = chain([(0.07, 0), (0.071, 0)], 60e-6, 1e9), chain([(0.071, 0), (0.075, 0)], 31e-6, 1000.0)
+        times, reach = Network(segments(chain([(0.05, 0), (0.07, 0)], 10e-6, 1000.0), bridge, ahead, SOUND), TIP, TOLERANCE).history()
+        self.assertAlmostEqual(float(reach[times < 36e-6].max()), 0.075)
+
+    def test_WhatIsElsewhere_DoesNotCount(self):
+        other = chain([(0.09, 0), (0.1, 0)], 5e-6, 1000.0)
+        _, reach = Network(segments(chain([(0.05, 0), (0.07, 0)], 10e-6, 1000.0), other), TIP, TOLERANCE).history()
+        self.assertAlmostEqual(float(reach.max()), 0.07)
 
     def test_OneCrack_DoesNotBranch(self):
-        self.assertTrue(np.isnan(branching(self.cracks, 3 * SIZE, 2 * SIZE)[0]))
+        self.assertTrue(np.isnan(Network(self.cracks, TIP, TOLERANCE).fork(4e-3)[1]))
 
     def test_NothingFailed_IsNaN(self):
         nothing = segments(SOUND)
         self.assertTrue(np.isnan(start_time(nothing)))
-        self.assertTrue(np.isnan(branching(nothing, SIZE, SIZE)[1]))
+        self.assertTrue(np.isnan(Network(nothing, TIP, TOLERANCE).fork(4e-3)[1]))
         self.assertTrue(np.isnan(angle_of(nothing, np.zeros(2), SIZE)))
 
 
+class TestPassing(unittest.TestCase):
+    def test_Times_AreInterpolatedBetweenFrames(self):
+        a, b, c = ([[0.0, y], [1.0, y]] for y in (0.0, 1.0, 2.0))
+        frames = [(0.0, np.zeros((0, 2, 2)), np.zeros(0)), (1.0, np.array([a]), np.array([0.2])),
+                  (2.0, np.array([b, a, c]), np.array([0.8, 0.6, 0.1]))]
+        b_time, a_time, c_time = passing_times(frames, 0.5)
+        self.assertAlmostEqual(a_time, 1.75)
+        self.assertAlmostEqual(b_time, 1.0 + 0.5 / 0.8)
+        self.assertEqual(c_time, np.inf)
+
+
 class TestBranches(unittest.TestCase):
-    def test_Branching_IsWhereTwoArmsAreApart(self):
+    def test_Branching_IsAtTheForkWhenTheSecondArmLeaves(self):
         trunk = chain([(0.05, 0), (0.065, 0)], 10e-6, 1000.0)
         up = chain([(0.065, 0), (0.085, 0.01)], 25e-6, 1000.0)
         down = chain([(0.065, 0), (0.085, -0.01)], 27e-6, 1000.0)
-        where, when = branching(segments(trunk, up, down), 3 * SIZE, 2 * SIZE)
-        # arms of slope 1/2 are 3 mm apart 3 mm behind the fork; columns are 2 mm wide
-        self.assertGreater(where, 0.066)
-        self.assertLess(where, 0.071)
-        self.assertGreater(when, 27e-6)
-        self.assertLess(when, 33e-6)
+        where, when = Network(segments(trunk, up, down), TIP, TOLERANCE).fork(4e-3)
+        np.testing.assert_allclose(where, [0.065, 0], atol=1e-9)
+        self.assertAlmostEqual(when, 27e-6 + float(np.hypot(0.02, 0.01)) / 22 / 1000.0)
 
     def test_ShortSideCrack_IsNoBranch(self):
         trunk = chain([(0.05, 0), (0.08, 0)], 10e-6, 1000.0)
-        stub = chain([(0.06, 0.005), (0.062, 0.005)], 20e-6, 1000.0)
-        self.assertTrue(np.isnan(branching(segments(trunk, stub), 3 * SIZE, 2 * SIZE)[0]))
+        stub = chain([(0.06, 0), (0.062, 0.002)], 20e-6, 1000.0)
+        self.assertTrue(np.isnan(Network(segments(trunk, stub), TIP, TOLERANCE).fork(4e-3)[1]))
+
+    def test_CrackThatDoesNotHangTogether_IsNoBranch(self):
+        trunk = chain([(0.05, 0), (0.08, 0)], 10e-6, 1000.0)
+        other = chain([(0.06, 0.005), (0.08, 0.005)], 20e-6, 1000.0)
+        self.assertTrue(np.isnan(Network(segments(trunk, other), TIP, TOLERANCE).fork(4e-3)[1]))
+
+
+    def test_ArmBehindABridge_HangsByIt(self):
+        trunk = chain([(0.05, 0), (0.08, 0)], 10e-6, 1000.0)
+        arm = chain([(0.065, 0.0015), (0.075, 0.008)], 27e-6, 1000.0)
+        self.assertTrue(np.isnan(Network(segments(trunk, arm), TIP, TOLERANCE, 1.4e-3).fork(4e-3)[1]))
+        where, when = Network(segments(trunk, arm), TIP, TOLERANCE, 1.6e-3).fork(4e-3)
+        np.testing.assert_allclose(where, [0.065, 0], atol=1e-9)
+        self.assertAlmostEqual(when, 28e-6, delta=0.2e-6)
 
 
 class TestAngle(unittest.TestCase):
