@@ -109,9 +109,10 @@ def roses(runs: Path, path: Path) -> None:
                 axes.bar(bins[:-1] + turn, shares, width=np.diff(bins), align="edge", color=COLOUR[material],
                          edgecolor="white", linewidth=0.4)
             axes.plot(np.linspace(0, 2 * np.pi, 100), np.full(100, 1 / 18), color="black", linewidth=0.6)
+            axes.set_axisbelow(True)
             axes.set_xticks(np.radians(range(0, 360, 45)))
             axes.set_yticklabels([])
-            axes.set_title(f"{material}\n{label}", fontsize=8)
+            axes.set_title(f"{material}, {label}", fontsize=8)
     for axes in rows.ravel():
         axes.set_ylim(0, 1.05 * largest)
     style.save(figure, path)
@@ -163,17 +164,14 @@ def animation(runs: Path, path: Path) -> None:
     n = 32
     times = np.linspace(0, T_END, n + 1)[1:]
     cracks = {material: last_cracks(runs / Case(material).name) for material in MATERIALS}
-    with style.plt.rc_context({"figure.constrained_layout.use": False}):
-        figure, axes = style.plt.subplots(1, 2, figsize=(7.6, 2.9), sharey=True)
-    figure.subplots_adjust(left=0.06, right=0.91, bottom=0.14, top=0.9, wspace=0.05)
+    figure, axes = style.plt.subplots(1, 2, figsize=(8.0, 2.9), sharey=True)
     shown = {}
     for one, material in zip(axes, MATERIALS):
         shown[material] = panel(one, speed(runs / Case(material).name, times[0]), np.zeros((0, 2, 2)), 3.0, 0.5)
         plan(one)
         one.set_xlabel("x [m]")
     axes[0].set_ylabel("y [m]")
-    bar = figure.add_axes((0.925, 0.14, 0.015, 0.76))
-    figure.colorbar(shown[MATERIALS[0]][0], cax=bar, label="speed [m/s]", extend="max")
+    figure.colorbar(shown[MATERIALS[0]][0], ax=list(axes), label="speed [m/s]", extend="max", pad=0.01, fraction=0.03)
 
     def update(i: int) -> list:
         for one, material in zip(axes, MATERIALS):
