@@ -3,8 +3,6 @@ import json
 import time
 from pathlib import Path
 
-import numpy as np
-
 from studies.blast.analysis import (deep, expected_energy, largest_jump, last_cracks, orientation, worst_balance,
                                     written_energy)
 from studies.blast.cases import CASES
@@ -54,7 +52,8 @@ metrics["splitting_of_work_max"] = max(details[name]["of_work"]["splitting"] for
                                        if not case.equal_energies)
 for name, case in CASES.items():
     if not case.equal_energies:
-        for key in ("crack_length_m", "mean_orientation_deg", "concentration"):
+        for key in ("crack_length_m", "mean_orientation_deg", "concentration", "mean_orientation_near_cavity_deg",
+                    "concentration_near_cavity"):
             metrics[f"{key}/{name}"] = details[name][key]
 Path(snakemake.output[0]).write_text(json.dumps({  # noqa: F821
     "study": "blast", "extent": snakemake.params.profile, "metrics": metrics, "details": details,  # noqa: F821
