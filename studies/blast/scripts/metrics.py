@@ -3,6 +3,8 @@ import json
 import time
 from pathlib import Path
 
+import numpy as np
+
 from studies.blast.analysis import (deep, expected_energy, largest_jump, last_cracks, orientation, worst_balance,
                                     written_energy)
 from studies.blast.cases import CASES
