@@ -32,7 +32,8 @@ void CrackFrames::write(const State& state, std::size_t step) {
     std::vector<std::array<double, 2>> points;
     std::vector<std::array<std::int32_t, 2>> lines;
     std::vector<std::int32_t> sides;
-    std::vector<double> displacement, damage, opening, slip, mode, fracture, friction, failed_at;
+    std::vector<double> displacement, end_damage, end_opening, end_slip, end_fracture;
+    std::vector<double> damage, opening, slip, mode, fracture, friction, failed_at;
     const auto& nodes = cracking_.mesh().nodes;
     const auto history = cracking_.history(state);
     const auto mean = [](const std::array<double, 2>& ends) { return 0.5 * (ends[0] + ends[1]); };
@@ -45,6 +46,10 @@ void CrackFrames::write(const State& state, std::size_t step) {
             const auto a = static_cast<std::size_t>(edge.nodes[end]), b = static_cast<std::size_t>(edge.nodes[end + 2]);
             points.push_back(nodes[a]);
             for (std::size_t c = 0; c < 2; ++c) displacement.push_back(0.5 * (state.u[2 * a + c] + state.u[2 * b + c]));
+            end_damage.push_back(edge.damage[end]);
+            end_opening.push_back(edge.opening[end]);
+            end_slip.push_back(edge.slip[end]);
+            end_fracture.push_back(edge.fracture[end]);
         }
         sides.push_back(edge.side);
         damage.push_back(std::min(edge.damage[0], edge.damage[1]));
@@ -61,7 +66,11 @@ void CrackFrames::write(const State& state, std::size_t step) {
     mesh.integers = {{"side", sides}};
     series_.set_mesh(mesh);
     series_.write(state.t, static_cast<std::int64_t>(step),
-                  {{{"displacement", displacement, 2}},
+                  {{{"displacement", displacement, 2},
+                    {"end_damage", end_damage},
+                    {"end_opening", end_opening},
+                    {"end_slip", end_slip},
+                    {"end_dissipated_fracture", end_fracture}},
                    {{"damage", damage},
                     {"opening", opening},
                     {"slip", slip},

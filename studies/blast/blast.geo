@@ -1,8 +1,10 @@
 // Four curved layers under a free surface and a cavity in the second one, as Figures 22 and 23a of Lei et al. (2016); assumptions
 // in README.md. Interface k runs from left to right at depth_k + rise_k bump(x) below the surface y = 0.
 DefineConstant[ width = 120, depth = 80, cavity_x = 0, cavity_y = -20, radius = 2.5, size = 1.1, fine = 0.4, n = 16,
-                depth_1 = -14, depth_2 = -34, depth_3 = -56, rise_1 = 5, rise_2 = 8, rise_3 = 6 ];
-// sides of composites: `size` far away, `fine` at the cavity
+                turn = 0, algorithm = 6, depth_1 = -14, depth_2 = -34, depth_3 = -56, rise_1 = 5, rise_2 = 8, rise_3 = 6 ];
+// sides of composites: `size` far away, `fine` at the cavity. Another mesh: another angle (rad) of the first point on the
+// cavity, another of Gmsh's algorithms (5 Delaunay, 6 frontal).
+Mesh.Algorithm = algorithm;
 depths() = {depth_1, depth_2, depth_3};
 rises() = {rise_1, rise_2, rise_3};
 Point(1) = {-width/2, -depth, 0, size};
@@ -28,10 +30,9 @@ Line(8) = {100, 200};
 Line(9) = {200, 300};
 Line(20) = {300, 1};
 Point(50) = {cavity_x, cavity_y, 0, fine};
-Point(51) = {cavity_x + radius, cavity_y, 0, fine};
-Point(52) = {cavity_x, cavity_y + radius, 0, fine};
-Point(53) = {cavity_x - radius, cavity_y, 0, fine};
-Point(54) = {cavity_x, cavity_y - radius, 0, fine};
+For k In {0:3}
+    Point(51 + k) = {cavity_x + radius*Cos(turn + k*Pi/2), cavity_y + radius*Sin(turn + k*Pi/2), 0, fine};
+EndFor
 Circle(31) = {51, 50, 52};
 Circle(32) = {52, 50, 53};
 Circle(33) = {53, 50, 54};

@@ -4,7 +4,8 @@ import unittest
 
 import numpy as np
 
-from studies.blast.cases import CAVITY, CONSTANTS, DEPTH, FOLDER, INTERFACES, RADIUS, SIZES, WIDTH, bedding, deck, height
+from studies.blast.cases import (CASES, CAVITY, CONSTANTS, DEPTH, FOLDER, INTERFACES, RADIUS, SIZES, WIDTH, Case, bedding,
+                                 deck, height)
 
 
 class TestDecks(unittest.TestCase):
@@ -15,16 +16,27 @@ class TestDecks(unittest.TestCase):
                 self.assertGreater(M_psi, 0)
 
     def test_Kinds_DifferInMaterialsAlone(self):
-        one, other = deck("anisotropic", "full"), deck("isotropic", "full")
+        one, other = deck(Case("anisotropic"), "full"), deck(Case("isotropic"), "full")
         for key in set(one) - {"title", "material"}:
             self.assertEqual(one[key], other[key])
 
     def test_Geometry_HasTheParametersAndTheBumpOfTheDeck(self):
         text = (FOLDER / "blast.geo").read_text()
         for profile in SIZES:
-            for name in deck("isotropic", profile)["mesh"]["parameters"]:
+            for name in deck(Case("isotropic"), profile)["mesh"]["parameters"]:
                 self.assertIsNotNone(re.search(rf"\b{name}\b", text), name)
         self.assertIn("Sin(2*Pi*(x/width + 0.375))", text)
+
+    def test_Cases_HaveTheirOwnNames(self):
+        for name, case in CASES.items():
+            self.assertEqual(name, case.name)
+        self.assertEqual(len({case.name for case in CASES.values()}), len(CASES))
+
+    def test_SecondMesh_DiffersInParametersOfTheMeshAlone(self):
+        one, other = deck(Case("isotropic"), "full"), deck(Case("isotropic", mesh=2), "full")
+        self.assertNotEqual(one["mesh"]["parameters"], other["mesh"]["parameters"])
+        for key in set(one) - {"title", "mesh", "output"}:
+            self.assertEqual(one[key], other[key])
 
     def test_Interfaces_KeepApartFromEachOtherTheSurfaceAndTheCavity(self):
         x = np.linspace(-WIDTH / 2, WIDTH / 2, 200)

@@ -1,0 +1,63 @@
+"""Workflow step: the metrics of the study, into summary.json. README.md defines each."""
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+
+from studies.blast.analysis import (deep, expected_energy, largest_jump, last_cracks, orientation, worst_balance,
+                                    written_energy)
+from studies.blast.cases import CASES
+from studies.common.results import read_summary, read_table
+
+metrics: dict[str, float] = {}
+details: dict[str, dict] = {}
+for name, case in CASES.items():
+    folder = Path("cases") / name
+    summary, cracks = read_summary(folder), last_cracks(folder)
+    history = read_table(folder / "history.csv")
+    ledger = summary["energies_J"]["dissipated_fracture"]
+    expected, written = expected_energy(case, cracks), written_energy(cracks)
+    whole = cracks.failed
+    near = whole & deep(cracks)
+    of_all, of_near = (orientation(cracks.angle[which], cracks.length[which]) for which in (whole, near))
+    work = history["external_work"][-1]
+    details[name] = {
+        "energy_balance_error_max": worst_balance(history),
+        "largest_jump": dict(zip(("t_s", "of_work"), largest_jump(history))),
+        "fracture_energy_consistency": abs(expected.sum() / ledger - 1),
+        "fracture_energy_consistency_failed": abs(expected[whole].sum() / written[whole].sum() - 1),
+        "fracture_energy_of_files": abs(written.sum() / ledger - 1),
+        "crack_length_m": float(cracks.length[whole].sum()),
+        "crack_length_near_cavity_m": float(cracks.length[near].sum()),
+        "mean_orientation_deg": of_all.mean, "concentration": of_all.concentration,
+        "mean_orientation_near_cavity_deg": of_near.mean, "concentration_near_cavity": of_near.concentration,
+        "opening_share": float(np.sum((cracks.length * cracks.mode)[whole]) / cracks.length[whole].sum()),
+        "fragments": summary["cracks"]["fragments"],
+        "of_work": {key: history[key][-1] / work for key in (
+            "dissipated_fracture", "dissipated_friction", "splitting", "stored_contact", "kinetic", "stored_material")},
+        "steps": summary["counts"]["steps"], "elements": summary["counts"]["elements"],
+        "wall_s": summary["timings"]["wall_s"],
+    }
+
+
+def worst(key: str, equal_energies: bool) -> float:
+    return max(details[name][key] for name, case in CASES.items() if case.equal_energies == equal_energies)
+
+
+metrics["energy_balance_error_max"] = worst("energy_balance_error_max", False)
+metrics["fracture_energy_consistency"] = worst("fracture_energy_consistency", True)
+metrics["fracture_energy_consistency_mixed_modes"] = worst("fracture_energy_consistency_failed", False)
+metrics["fracture_energy_of_files"] = max(worst("fracture_energy_of_files", which) for which in (False, True))
+metrics["sub_triangles_min"] = 4 * min(details[name]["elements"] for name, case in CASES.items() if not case.equal_energies)
+metrics["splitting_of_work_max"] = max(details[name]["of_work"]["splitting"] for name, case in CASES.items()
+                                       if not case.equal_energies)
+for name, case in CASES.items():
+    if not case.equal_energies:
+        for key in ("crack_length_m", "mean_orientation_deg", "concentration", "mean_orientation_near_cavity_deg",
+                    "concentration_near_cavity"):
+            metrics[f"{key}/{name}"] = details[name][key]
+Path(snakemake.output[0]).write_text(json.dumps({  # noqa: F821
+    "study": "blast", "extent": snakemake.params.profile, "metrics": metrics, "details": details,  # noqa: F821
+    "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+}, indent=1) + "\n")
