@@ -22,7 +22,7 @@ namespace gneiss {
 struct PartedMesh {
     const Mesh& mesh;
     std::span<const std::int32_t> original_of = {};  ///< InnerSides::original_of(); empty: it is whole
-    std::span<const std::int32_t> failed = {};  ///< inner sides that nothing holds
+    std::span<const std::int32_t> failed = {};       ///< inner sides that nothing holds
 };
 
 class ContactBodies {
