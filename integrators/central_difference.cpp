@@ -104,6 +104,8 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
         bound_.omega = std::sqrt(std::max(0.0, bound_.omega * bound_.omega - bound_.of_bonds + of_bonds));
         bound_.of_bonds = of_bonds;
         take_bound(system, state);
+        // what has come apart deforms faster than before
+        if (options_.bound_interval == 0) bound_interval_ = std::min(bound_interval_, first_interval);
     } else if (anew) {
         bound_interval_ = 0;
         evaluate_bound(system, state);

@@ -172,6 +172,7 @@ double JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, do
         for (std::size_t k = 0; k < n_members; ++k)
             history[entry(end.joint, member_row(end.end, k))] = point.history.*CohesionHistory<double>::members[k];
         history[entry(end.joint, factor_row + end.end)] = point.strength_factor;
+        history[end.joint / pack_width] = 1;
         return end.weight * point.offset_energy;
     } else {
         return 0;

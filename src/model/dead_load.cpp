@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
+#include <utility>
 
 #include "mesh/composite.hpp"
 #include "mesh/geometry.hpp"
@@ -60,10 +62,16 @@ void DeadLoad::add_path_energies(const Trial& from, const Trial& to, PathEnergie
 
 std::vector<LoadShare> nodal_force_shares(const Mesh& mesh, const std::vector<std::int32_t>& nodes,
                                           const Field& value) {
-    std::vector<LoadShare> shares;
-    for (std::int32_t node : nodes) {
+    // copies of a node that has parted share the force of the one that they were
+    std::map<std::pair<double, double>, double> n_at;
+    for (const std::int32_t node : nodes) {
         const Vec2<double> x = position(mesh, node);
-        shares.push_back({node, evaluate(value, x), x});
+        n_at[{x.x, x.y}] += 1;
+    }
+    std::vector<LoadShare> shares;
+    for (const std::int32_t node : nodes) {
+        const Vec2<double> x = position(mesh, node);
+        shares.push_back({node, (1 / n_at[{x.x, x.y}]) * evaluate(value, x), x});
     }
     return shares;
 }

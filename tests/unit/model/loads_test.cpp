@@ -9,6 +9,7 @@
 
 #include "base/dual.hpp"
 #include "base/errors.hpp"
+#include "mesh/inner_sides.hpp"
 #include "model/edge_pressure.hpp"
 #include "unit/model/amplitude_options.hpp"
 #include "unit/model/tiny_mesh.hpp"
@@ -103,6 +104,21 @@ TEST(NodalForce, Set_FormulaOfPosition_ActsOnEachNode) {
     const auto term = make(mesh, load(Kind::nodal_force, "right", Formula("10 + y"), -3.0));
     EXPECT_EQ(term->name(), "nodal force on \"right\"");
     EXPECT_THAT(force(*term, undeformed(mesh)), ElementsAre(0, 0, 10, -3, 11, -3, 0, 0));
+}
+
+TEST(NodalForce, NodeThatHasParted_ItsCopiesShareIt) {
+    Mesh mesh = test::rectangle_mesh();
+    InnerSides inner(mesh);
+    const std::vector<NodeCopy> copies =
+        inner.open(std::vector<std::int32_t>{0});  // the diagonal: two of its nodes part
+    ASSERT_EQ(copies.size(), 2u);
+    const auto term = make(mesh, load(Kind::nodal_force, "right", 10.0));
+    const std::vector<double> f = force(*term, undeformed(mesh));
+    double sum = 0;
+    for (std::size_t i = 0; i < f.size(); i += 2) sum += f[i];
+    EXPECT_EQ(sum, 20) << "two nodes of the set, however often they were copied";
+    for (const NodeCopy& copy : copies)
+        EXPECT_EQ(f[2 * static_cast<std::size_t>(copy.original)], f[2 * static_cast<std::size_t>(copy.copy)]);
 }
 
 TEST(NodalForce, AddForce_OtherForces_AreKept) {
