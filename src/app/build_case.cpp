@@ -30,34 +30,36 @@ void collect(std::vector<Problem>& problems, Step step) {
     }
 }
 
-/// Impedances of the elements at an absorbing boundary, from the law's stiffness at the start.
-std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const CaseOptions& options,
-                                              const std::vector<std::unique_ptr<ElementBlock>>& blocks) {
-    const std::vector<BoundaryEdge> edges = absorbing_edges(mesh, options.boundaries);
+/// Stiffness of every element at the start, where an absorbing boundary asks for it; otherwise nothing.
+std::vector<PlaneStiffness> stiffness_for_absorbing(const Mesh& mesh, const std::vector<BoundaryOptions>& boundaries,
+                                                    std::span<const std::unique_ptr<ElementBlock>> blocks) {
     // Without blocks the materials are at fault: that is reported already.
-    if (edges.empty() || blocks.empty()) return {};
-    const std::vector<PlaneStiffness> stiffness = element_stiffness(mesh, blocks);
+    if (absorbing_edges(mesh, boundaries).empty() || blocks.empty()) return {};
+    return element_stiffness(mesh, blocks);
+}
+
+/// Impedances of the elements at an absorbing boundary.
+/// @param stiffness  of stiffness_for_absorbing()
+std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const std::vector<BoundaryOptions>& boundaries,
+                                              const std::vector<PlaneStiffness>& stiffness, double thickness) {
+    if (stiffness.empty()) return {};
     return absorbing_blocks(
-        mesh, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; },
-        options.solid.thickness);
+        mesh, absorbing_edges(mesh, boundaries),
+        [&](int element) { return stiffness[static_cast<std::size_t>(element)]; }, thickness);
 }
 
 /// What stands around the solid, made anew from a mesh that has come apart.
 std::function<SolidSystem::Surroundings(const Mesh&)> surroundings_of(const SolidSystem& system, const Mesh& mesh,
                                                                       const CaseOptions& options) {
-    std::vector<PlaneStiffness> stiffness;  // as it was at the start
-    if (!absorbing_edges(mesh, options.boundaries).empty())
-        stiffness = element_stiffness(mesh, system.elements().blocks());
-    return [loads = options.loads, boundaries = options.boundaries, thickness = options.solid.thickness,
-            stiffness = std::move(stiffness)](const Mesh& now) {
-        SolidSystem::Surroundings around;
-        around.terms = make_loads(now, loads, thickness);
-        around.constraints = make_constraints(now, boundaries);
-        if (const auto edges = absorbing_edges(now, boundaries); !edges.empty())
-            around.damping = absorbing_blocks(
-                now, edges, [&](int element) { return stiffness[static_cast<std::size_t>(element)]; }, thickness);
-        return around;
-    };
+    return
+        [loads = options.loads, boundaries = options.boundaries, thickness = options.solid.thickness,
+         stiffness = stiffness_for_absorbing(mesh, options.boundaries, system.elements().blocks())](const Mesh& now) {
+            SolidSystem::Surroundings around;
+            around.terms = make_loads(now, loads, thickness);
+            around.constraints = make_constraints(now, boundaries);
+            around.damping = absorbing_damping(now, boundaries, stiffness, thickness);
+            return around;
+        };
 }
 
 /// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
@@ -125,7 +127,11 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness); });
     collect(problems, [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(*built.mesh, options.initial); });
-    collect(problems, [&] { parts.damping.blocks = absorbing_damping(*built.mesh, options, parts.blocks); });
+    collect(problems, [&] {
+        parts.damping.blocks = absorbing_damping(*built.mesh, options.boundaries,
+                                                 stiffness_for_absorbing(*built.mesh, options.boundaries, parts.blocks),
+                                                 options.solid.thickness);
+    });
     std::unique_ptr<Joints> joints;
     std::vector<CohesionProperties<double>> properties;
     if (cracks && !parts.blocks.empty())

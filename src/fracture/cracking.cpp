@@ -1,6 +1,5 @@
 #include "fracture/cracking.hpp"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
