@@ -98,6 +98,8 @@ void CentralDifference::take_bound(const SemiDiscrete& system, const State& stat
 void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
     const bool bound_holds = why == StartReason::resize && critical_ > 0;  // what is new are bonds
+    // of this integrator's last acceleration: there is none before a run begins
+    const double measure_before = a_.empty() ? 0 : acceleration_measure();
     if (anew) allocate(system);
     if (bound_holds) {
         const double of_bonds = system.bond_omega_squared(state);
@@ -115,8 +117,6 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
         // do not put the next look off for ever
         bound_interval_ = std::min(bound_interval_, first_interval);
     }
-    const double measure_before = anew ? 0 : acceleration_measure(system);
-
     hold_constraints(system, state, why);
     // they may have strained the solid
     if (anew && !bound_holds && !system.constraints().empty()) evaluate_bound(system, state);
@@ -130,8 +130,10 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     }
     settle(system, state);
     for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];
-    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched
-    if (!anew) state.path.external_work -= acceleration_measure(system) - measure_before;
+    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched, or of what held
+    // together until now
+    if (why == StartReason::reinitialise) state.path.external_work -= acceleration_measure() - measure_before;
+    if (why == StartReason::resize) state.path.splitting -= acceleration_measure() - measure_before;
 }
 
 void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
@@ -148,11 +150,10 @@ void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
     for (const Constraint& constraint : constraints) a_[constraint.dof] = 0;
 }
 
-double CentralDifference::acceleration_measure(const SemiDiscrete& system) const {
-    const auto mass = system.lumped_mass();
+double CentralDifference::acceleration_measure() const {
     return 0.125 * dt_ * dt_ * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
                double sum = 0;
-               for (std::size_t i = first; i < last; ++i) sum += mass[i] * a_[i] * a_[i];
+               for (std::size_t i = first; i < last; ++i) sum += a_[i] * a_[i] / inverse_mass_[i];
                return sum;
            });
 }
@@ -430,7 +431,7 @@ double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State
                                     for (std::size_t k = first; k < last; ++k) sum += mass[k] * state.v[k] * state.v[k];
                                     return sum;
                                 });
-    return synchronised - acceleration_measure(system);
+    return synchronised - acceleration_measure();
 }
 
 IntegratorMemory CentralDifference::save() const {

@@ -56,7 +56,7 @@ private:
     /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
     void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
     /// dt^2/8 a . M a, J: what v(n) . M v(n)/2 exceeds v(n-1/2) . M v(n+1/2)/2 by.
-    double acceleration_measure(const SemiDiscrete& system) const;
+    double acceleration_measure() const;
     double choose_step(double remaining) const;
     /// Looks at the bound if that is due, and chooses the next step: dt_, and the time in next_.
     void plan_step(const SemiDiscrete& system, const State& state, double t_stop);

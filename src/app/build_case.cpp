@@ -148,12 +148,13 @@ Case build_case(CaseOptions options) {
             }
         });
     std::vector<std::unique_ptr<Interaction>> contacts;
-    const bool contact = options.contact.method != ContactOptions::Method::none;
-    if (contact && !parts.blocks.empty())
+    const ContactBodies* in_contact = nullptr;
+    if (options.contact.method != ContactOptions::Method::none && !parts.blocks.empty())
         collect(problems, [&] {
             const auto original_of = built.inner ? built.inner->original_of() : std::span<const std::int32_t>{};
-            auto bodies =
-                make_contact({*built.mesh, original_of, named.cracked}, parts.blocks, options.solid, options.contact);
+            auto bodies = make_contact({*built.mesh, original_of, named.cracked}, parts.blocks, options.solid,
+                                       options.contact, cracks);
+            in_contact = &bodies->bodies();
             auto walls = options.walls.empty() ? nullptr : make_walls(*bodies, options.walls, options.contact.friction);
             contacts.push_back(std::move(bodies));
             if (walls) contacts.push_back(std::move(walls));
@@ -177,16 +178,21 @@ Case build_case(CaseOptions options) {
     Joints* const cohesion = cracks ? static_cast<Joints*>(parts.interactions.front().get()) : nullptr;
     built.system = std::make_unique<SolidSystem>(*built.mesh, std::move(parts));
     if (cohesion != nullptr) {
-        auto cracking = std::make_unique<Cracking>(Cracking::Parts{
-            .mesh = *built.mesh,
-            .inner = *built.inner,
-            .solid = *built.system,
-            .joints = *cohesion,
-            .properties = std::move(properties),
-            .contact = contact,
-            .surroundings = surroundings_of(*built.system, *built.mesh, options),
-            .loads_everywhere = std::ranges::any_of(
-                options.loads, [](const auto& load) { return load.kind == LoadOptions::Kind::body_force; })});
+        Cracking::Parts parts_of_cracking{.mesh = *built.mesh,
+                                          .inner = *built.inner,
+                                          .solid = *built.system,
+                                          .joints = *cohesion,
+                                          .properties = std::move(properties),
+                                          .come_apart = {},
+                                          .surroundings = surroundings_of(*built.system, *built.mesh, options),
+                                          .loads_everywhere = std::ranges::any_of(options.loads, [](const auto& load) {
+                                              return load.kind == LoadOptions::Kind::body_force;
+                                          })};
+        if (in_contact != nullptr)
+            parts_of_cracking.come_apart = [in_contact](std::span<const std::int32_t> sides) {
+                return in_contact->come_apart(sides);
+            };
+        auto cracking = std::make_unique<Cracking>(std::move(parts_of_cracking));
         built.cracking = cracking.get();
         built.system->add_event(std::move(cracking));
     }

@@ -69,7 +69,7 @@ std::int64_t cell_of(double x, double cells_per_m) { return static_cast<std::int
 }  // namespace
 
 std::span<const ContactCandidate> CellSearch::search(const ContactSurroundings& what, double skin) {
-    assert(skin >= 0 && what.points != nullptr && 2 * what.joined.size() == what.x.size());
+    assert(skin >= 0 && what.points != nullptr);
     candidates_.clear();
     skin_ = skin;
     searched_.assign(what.x.begin(), what.x.end());
@@ -106,16 +106,12 @@ void CellSearch::place_points(const ContactSurroundings& what) {
     const ContactorPoints& points = *what.points;
     point_x_.resize(points.size());
     point_y_.resize(points.size());
-    joined_a_.resize(points.size());
-    joined_b_.resize(points.size());
     parallel_ranges(points.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const double w = points.weight_b[i];
             const Vec2<double> p = (1 - w) * at(what.x, points.a[i]) + w * at(what.x, points.b[i]);
             point_x_[i] = p.x;
             point_y_[i] = p.y;
-            joined_a_[i] = what.joined[static_cast<std::size_t>(points.a[i])];
-            joined_b_[i] = what.joined[static_cast<std::size_t>(points.b[i])];
         }
     });
 }
@@ -278,9 +274,6 @@ void CellSearch::sweep(const ContactSurroundings& what, double skin) {
                 const auto& nodes = what.triangles[t];
                 const Box& box = boxes_[t];
                 const WidenedTriangle widened(what.x, nodes, skin);
-                const std::array<std::int32_t, 3> joined{what.joined[static_cast<std::size_t>(nodes[0])],
-                                                         what.joined[static_cast<std::size_t>(nodes[1])],
-                                                         what.joined[static_cast<std::size_t>(nodes[2])]};
                 for (std::size_t block = run; block < run_end; block += block_size) {
                     // the box first, without branches: what they would predict is a toss-up
                     const std::size_t block_end = std::min(block + block_size, run_end);
@@ -292,9 +285,12 @@ void CellSearch::sweep(const ContactSurroundings& what, double skin) {
                     }
                     for (std::size_t i = 0; i < n_near; ++i) {
                         const std::size_t p = dropped_[near[i]] & item;
-                        bool apart = true;
-                        for (const std::int32_t node : joined) apart &= node != joined_a_[p] && node != joined_b_[p];
-                        if (apart && widened.contains(dropped_x_[near[i]], dropped_y_[near[i]]))
+                        bool has_a = false, has_b = false;
+                        for (const std::int32_t node : nodes) {
+                            has_a |= node == what.points->a[p];
+                            has_b |= node == what.points->b[p];
+                        }
+                        if (!(has_a && has_b) && widened.contains(dropped_x_[near[i]], dropped_y_[near[i]]))
                             found.push_back({static_cast<std::int32_t>(p), static_cast<std::int32_t>(t)});
                     }
                 }

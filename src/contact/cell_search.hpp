@@ -31,17 +31,14 @@ struct ContactSurroundings {
     std::span<const double> x;                               ///< current positions, m, shape (2 n_nodes)
     std::span<const std::array<std::int32_t, 3>> triangles;  ///< nodes of the targets, counter-clockwise
     const ContactorPoints* points = nullptr;
-    /// Per node, a number that two nodes share where unbroken bonds hold them together. Where all elements around a
-    /// node share it, its own number will do. A point is never paired with a triangle that has a node joined to one of
-    /// the ends of its edge.
-    std::span<const std::int32_t> joined;
 };
 
 /// Keeps its arrays: once they have grown to the size of the problem, a search allocates nothing.
 class CellSearch {
 public:
-    /// All pairs that are not joined and whose point lies, to within the skin, in the box of the triangle and on the
-    /// inner side of each of its edges. So every pair closer than the skin is among them.
+    /// All pairs whose triangle does not have both ends of the point's edge, and whose point lies, to within the skin,
+    /// in the box of the triangle and on the inner side of each of its edges. So every pair closer than the skin is
+    /// among them.
     /// @param skin  m, >= 0: pairs remain complete while no node has moved more than half of it
     /// @returns ascending by point, then triangle, the same for any number of threads; valid until the next search
     /// @throws RecoverableError if a position is not finite, or further from the origin than 2^40 cells; the message
@@ -73,9 +70,7 @@ private:
     double skin_ = 0;
     std::vector<double> searched_;  // positions at the last search
 
-    // points: positions, and what their ends are joined to
-    std::vector<double> point_x_, point_y_;
-    std::vector<std::int32_t> joined_a_, joined_b_;
+    std::vector<double> point_x_, point_y_;  // of the contactor points
 
     // triangles
     std::vector<Box> boxes_;

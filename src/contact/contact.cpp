@@ -33,7 +33,9 @@ void Contact::Options::validate() const {
 }
 
 Contact::Contact(const PartedMesh& start, std::span<const double> layers, double cap, const Options& options)
-    : options_(options), remembers_(options.friction > 0 || options.restitution < 1), bodies_(start, layers, cap) {
+    : options_(options),
+      remembers_(options.friction > 0 || options.restitution < 1 || options.comes_apart),
+      bodies_(start, layers, cap) {
     options_.validate();
     searched_.assign(2 * bodies_.n_nodes(), 0.0);
     search();
@@ -49,10 +51,16 @@ void Contact::search() {
     const auto reference = bodies_.reference();
     x_.resize(reference.size());
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = reference[i] + searched_[i];
-    search_.search({x_, bodies_.triangles(), &bodies_.points(), bodies_.joined()}, options_.skin);
+    search_.search({x_, bodies_.triangles(), &bodies_.points()}, options_.skin);
     moved_ = 0;
     ++n_searches_;
-    candidates_.assign(search_.candidates(), bodies_.triangles(), bodies_.joined());
+    candidates_.assign(search_.candidates(), bodies_.triangles());
+    first_coupling_.assign(1, 0);
+    for (const ContactCandidate& pair : candidates_.pairs) {
+        std::size_t n = 0;
+        for (const std::int32_t node : nodes_of(pair)) n += bodies_.held(node).size();
+        first_coupling_.push_back(first_coupling_.back() + n * n);
+    }
 
     if (!targets_.empty()) return;  // they are of this mesh
     for (std::size_t t = 0; t < bodies_.triangles().size(); ++t) {
@@ -95,36 +103,35 @@ double Contact::largest_motion(std::span<const double> u) const {
 }
 
 bool Contact::look(const State& accepted) {
-    const double moved = largest_motion(accepted.u), step = moved - moved_;
+    const auto u = bonded(accepted.u);
+    const double moved = largest_motion(u), step = moved - moved_;
     moved_ = moved;
     // The next step may go as far as the last one, or a little further.
     if (moved + 2 * std::max(step, 0.0) <= 0.5 * options_.skin) return false;
-    std::ranges::copy(std::span(accepted.u).first(searched_.size()), searched_.begin());
+    std::ranges::copy(u.first(searched_.size()), searched_.begin());
     const std::vector<ContactCandidate> before = candidates_.pairs;
     search();
     return before != candidates_.pairs;
 }
 
-std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now) {
-    std::vector<std::array<std::int32_t, 3>> by_ends;
-    for (std::size_t p = 0; p < old.size(); ++p) by_ends.push_back({old.a[p], old.b[p], static_cast<std::int32_t>(p)});
-    std::ranges::sort(by_ends);
-    std::vector<std::int32_t> same;
-    for (std::size_t p = 0; p < now.size(); ++p) {
-        const auto found = std::ranges::lower_bound(by_ends, std::array{now.a[p], now.b[p], 0});
-        const bool there = found != by_ends.end() && (*found)[0] == now.a[p] && (*found)[1] == now.b[p];
-        same.push_back(there ? (*found)[2] : -1);
-    }
-    return same;
-}
-
 void Contact::follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                      PathEnergies& energies) {
-    const double before = stored(accepted.u, history);
+    const std::span<const double> u_before =
+        bodies_.displacements(std::span(accepted.u).first(2 * bodies_.n_mesh_nodes()), u_);
+    const double before = stored(u_before, history);
     const ContactorPoints old_points = bodies_.points();
     const std::size_t n_old = old_points.size();
+    std::vector<double> depths(contact_slots * n_old, 0.0);  // of the points in their slots
+    for (std::size_t hit = 0; remembers_ && hit < hits_.size(); ++hit) {
+        if (known_[hit] == 0) continue;
+        const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
+        const std::size_t point = index(pair.point), slot = index(slots_[hit]);
+        depths[contact_slots * point + slot] =
+            alone(pair, 1.0).depth - AcceptedMemory(history, n_old).at(point, slot).rest;
+    }
     bodies_.follow(parting);
-    searched_.assign(accepted.u.begin(), accepted.u.end());
+    const std::span<const double> u = bonded(accepted.u);
+    searched_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(2 * bodies_.n_nodes()));
     targets_.clear();
     search();
     if (remembers_) {
@@ -135,14 +142,45 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
         memory.free_all();
         memory.friction() = old.friction();
         memory.restitution() = old.restitution();
-        const std::vector<std::int32_t> same = same_points(old_points, points);
+        const std::vector<FormerPoint> former = former_points(old_points, points);
         for (std::size_t p = 0; p < points.size(); ++p)
-            for (std::size_t slot = 0; slot < contact_slots && same[p] >= 0; ++slot)
-                if (const std::size_t q = index(same[p]); old.triangle(q, slot) >= 0)
+            for (std::size_t slot = 0; slot < contact_slots && former[p].point >= 0; ++slot)
+                if (const std::size_t q = index(former[p].point); old.triangle(q, slot) >= 0)
                     memory.set(p, slot, old.triangle(q, slot), old.at(q, slot));
         history = std::move(now);
+        find_hits(u);
+        match(history);
+        keep_forces(depths, former, history);
     }
-    energies.splitting += stored(accepted.u, history) - before;
+    energies.splitting += stored(u, history) - before;
+}
+
+/// Every point in touch goes on with the force that it had: what it is deeper than that takes is its rest depth; where
+/// edges of a crack have made it answer for more length, less depth and slip will do. The anchor follows where bonded
+/// nodes have jumped from the mean of many to that of fewer.
+void Contact::keep_forces(const std::vector<double>& depths, std::span<const FormerPoint> former,
+                          std::span<double> history) {
+    const Memory memory(history, points_.size());
+    for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
+        if (slots_[hit] < 0) continue;
+        const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
+        const std::size_t point = index(pair.point), slot = index(slots_[hit]);
+        const auto now = alone(pair, 1.0);
+        ContactHistory<double> kept = now.next;
+        kept.deepest = 0;
+        double depth = 0;
+        if (known_[hit] != 0) {
+            const double share = former[point].share;
+            kept = memory.at(point, slot);
+            kept.slip = share * kept.slip;
+            kept.slip_limit *= share;
+            kept.deepest *= share;
+            kept.anchor = now.next.anchor - kept.slip;
+            depth = share * std::max(0.0, depths[contact_slots * index(former[point].point) + slot]);
+        }
+        kept.rest = std::max(0.0, now.depth - depth);
+        memory.set(point, slot, pair.triangle, kept);
+    }
 }
 
 std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair) const {
@@ -150,13 +188,23 @@ std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair
     return {bodies_.points().a[index(pair.point)], bodies_.points().b[index(pair.point)], i, j, k};
 }
 
+void Contact::held_by(const ContactCandidate& pair, std::vector<Held>& nodes) const {
+    nodes.clear();
+    const auto bonded_nodes = nodes_of(pair);
+    for (std::size_t local = 0; local < n_nodes; ++local) {
+        const auto held = bodies_.held(bonded_nodes[local]);
+        for (const std::int32_t node : held) nodes.push_back({node, local, 1.0 / static_cast<double>(held.size())});
+    }
+}
+
 std::vector<std::array<std::int32_t, 2>> Contact::couplings() const {
     std::vector<std::array<std::int32_t, 2>> all;
-    all.reserve(candidates_.pairs.size() * n_nodes * n_nodes);
+    all.reserve(first_coupling_.back());
+    std::vector<Held> nodes;
     for (const ContactCandidate& pair : candidates_.pairs) {
-        const auto nodes = nodes_of(pair);
-        for (const std::int32_t a : nodes)
-            for (const std::int32_t b : nodes) all.push_back({a, b});
+        held_by(pair, nodes);
+        for (const Held& a : nodes)
+            for (const Held& b : nodes) all.push_back({a.node, b.node});
     }
     return all;
 }
@@ -206,24 +254,29 @@ void Contact::bound_stiffness(std::span<const double> u) const {
     }
 }
 
+// A bonded node that holds n others has the n-th part of its bound at each of them: its displacement is their mean, and
+// the square of a mean is at most the mean of squares.
 double Contact::omega_squared(const Trial& trial, std::span<const double>, std::span<const double> lumped_mass) const {
-    bound_stiffness(trial.u);
+    bound_stiffness(bonded(trial.u));
     double largest = 0;
-    for (std::size_t node = 0; node < bound_.size(); ++node)
-        largest = std::max(largest, bound_[node] / lumped_mass[2 * node]);
+    for (std::size_t node = 0; node < bound_.size(); ++node) {
+        const auto held = bodies_.held(static_cast<std::int32_t>(node));
+        for (const std::int32_t one : held)
+            largest =
+                std::max(largest, bound_[node] / (static_cast<double>(held.size()) * lumped_mass[2 * index(one)]));
+    }
     return largest;
 }
 
 void Contact::add_stiffness_bound(const Trial& trial, std::span<const double>, std::span<double> bound) const {
-    bound_stiffness(trial.u);
-    for (std::size_t node = 0; node < bound_.size(); ++node) {
-        bound[2 * node] += bound_[node];
-        bound[2 * node + 1] += bound_[node];
-    }
+    bound_stiffness(bonded(trial.u));
+    std::vector<double> both(2 * bound_.size());
+    for (std::size_t node = 0; node < bound_.size(); ++node) both[2 * node] = both[2 * node + 1] = bound_[node];
+    bodies_.spread(both, bound);
 }
 
 void Contact::add_stored(const Trial& accepted, std::span<const double> history, StoredEnergies& energies) const {
-    energies.contact += stored(accepted.u, history);
+    energies.contact += stored(bonded(accepted.u), history);
 }
 
 void Contact::add_dissipated(std::span<const double> from, std::span<const double> to, PathEnergies& energies) const {
@@ -235,7 +288,7 @@ void Contact::add_dissipated(std::span<const double> from, std::span<const doubl
 
 std::vector<ContactOverlap> Contact::overlaps(std::span<const double> u, double tolerance) const {
     std::vector<ContactOverlap> all;
-    find_hits(u);
+    find_hits(bonded(u));
     for (const std::int32_t hit : hits_) {
         const ContactCandidate& pair = candidates_.pairs[index(hit)];
         const auto nodes = nodes_of(pair);

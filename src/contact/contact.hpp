@@ -27,10 +27,6 @@ struct ContactOverlap {
 /// Deeper than this part of the shortest edge is no rounding of positions.
 inline constexpr double overlap_tolerance = 1e-6;
 
-/// For each point the one among the old that has the same ends: it has the same memory. -1: there is none. Where a node
-/// has been copied, the original keeps it.
-std::vector<std::int32_t> same_points(const ContactorPoints& old, const ContactorPoints& now);
-
 class Contact final : public Interaction {
 public:
     struct Options {
@@ -39,6 +35,8 @@ public:
         double restitution = 1;        ///< e, in (0, 1]
         double tangential_factor = 1;  ///< tangential stiffness over the normal one, > 0
         double skin = 0;               ///< m, > 0: pairs are searched again once a node has moved half of it
+        /// Whether sides may fail later: what overlaps then is remembered, and pushed apart no further.
+        bool comes_apart = false;
         /// @throws InputError
         void validate() const;
     };
@@ -53,7 +51,8 @@ public:
     /// were searched for; the message names it and the time
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;
-    /// Displacements of the accepted state are those of the parted mesh already.
+    /// Displacements of the accepted state are those of the parted mesh already. Points that are in a body only because
+    /// something has come apart get a rest depth: no force and no energy comes into being.
     void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                 PathEnergies& energies) override;
     bool watches() const override { return true; }
@@ -72,6 +71,7 @@ public:
                         PathEnergies& energies) const override;
 
     /// Points that are deeper than `tolerance` (m) inside a body, by ascending point.
+    /// @param u  m, shape (2 n_mesh_nodes)
     std::vector<ContactOverlap> overlaps(std::span<const double> u, double tolerance) const;
     const ContactBodies& bodies() const { return bodies_; }
     const Options& options() const { return options_; }
@@ -85,7 +85,11 @@ private:
     using AcceptedMemory = ContactMemory<const double>;
 
     void search();
+    // In what follows displacements are those of the bonded nodes.
     double largest_motion(std::span<const double> u) const;
+    std::span<const double> bonded(std::span<const double> u_of_mesh) const {
+        return bodies_.displacements(u_of_mesh, u_);
+    }
     void find_hits(std::span<const double> u) const;
     /// Which slot of its point each pair in touch has. @return energy of springs that nothing holds any more, J
     double match(std::span<const double> history) const;
@@ -95,8 +99,16 @@ private:
     std::size_t respond(std::span<const double> history, std::span<double> updated) const;
     double stored(std::span<const double> u, std::span<const double> history) const;
     void bound_stiffness(std::span<const double> u) const;
-    bool joined(std::int32_t triangle, std::int32_t other) const;
+    bool adjacent(std::int32_t triangle, std::int32_t other) const;
     std::array<std::int32_t, 5> nodes_of(const ContactCandidate& pair) const;
+    /// One of the mesh's nodes that a pair acts on.
+    struct Held {
+        std::int32_t node;
+        std::size_t local;  ///< which of nodes_of() holds it
+        double share;
+    };
+    void held_by(const ContactCandidate& pair, std::vector<Held>& nodes) const;
+    void keep_forces(const std::vector<double>& depths, std::span<const FormerPoint> former, std::span<double> history);
     [[noreturn]] void refuse_deep(const Trial& trial, std::size_t hit) const;
 
     Options options_;
@@ -104,14 +116,16 @@ private:
     ContactBodies bodies_;
     CellSearch search_;
     CandidatePacks candidates_;
-    std::vector<double> searched_;  ///< displacements at the last search, m
+    std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
     std::size_t n_searches_ = 0;
-    double moved_ = 0;                      ///< largest way of a node since then, at the last look, m
-    std::vector<TargetConstants> targets_;  ///< by triangle
-    std::vector<PointConstants> points_;    ///< by contactor point
+    double moved_ = 0;                         ///< largest way of a node since then, at the last look, m
+    std::vector<TargetConstants> targets_;     ///< by triangle
+    std::vector<PointConstants> points_;       ///< by contactor point
+    std::vector<std::size_t> first_coupling_;  ///< of each candidate; and of one behind the last
 
     // scratch of one evaluation
-    mutable std::vector<double> x_, point_x_;               ///< current positions of nodes and points, m
+    mutable std::vector<double> u_, f_;        ///< of the bonded nodes, m, N, where they are not the mesh's
+    mutable std::vector<double> x_, point_x_;  ///< current positions of bonded nodes and points, m
     mutable std::vector<std::vector<std::int32_t>> found_;  ///< candidates in touch, per range of packs
     mutable std::vector<std::int32_t> hits_;                ///< candidates in touch, ascending
     mutable std::vector<std::int8_t> slots_;                ///< per hit: of its point; -1: none was free
@@ -119,7 +133,7 @@ private:
     mutable std::vector<PairNumber> hit_nodes_;             ///< shape (packs of hits, 5, lanes)
     mutable AlignedDoubles forces_;                         ///< N, shape (packs of hits, 10, lanes)
     mutable AlignedDoubles stored_, slid_, lost_;           ///< J, per hit: stored; dissipated by friction, restitution
-    mutable std::vector<double> bound_, target_bound_;      ///< N/m, per node
+    mutable std::vector<double> bound_, target_bound_;      ///< N/m, per bonded node
 };
 
 }  // namespace gneiss

@@ -4,8 +4,10 @@
 #include <cassert>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/sub_triangles.hpp"
 
@@ -14,19 +16,37 @@ namespace {
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-void append_originals(std::vector<std::int32_t>& original, std::span<const NodeCopy> copies) {
-    for (const NodeCopy& copy : copies) {
-        assert(copy.copy == static_cast<std::int32_t>(original.size()));
-        const std::int32_t first = original[index(copy.original)];
-        original.push_back(first);
-    }
+std::vector<std::int32_t> counted(std::size_t n) {
+    std::vector<std::int32_t> numbers(n);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
 }
 
 std::vector<std::int32_t> originals(const PartedMesh& start) {
     if (!start.original_of.empty()) return {start.original_of.begin(), start.original_of.end()};
-    std::vector<std::int32_t> original(start.mesh.n_nodes());
-    std::iota(original.begin(), original.end(), 0);
-    return original;
+    return counted(start.mesh.n_nodes());
+}
+
+/// Numbers, from 0, of the sets of nodes that the elements of a mesh connect, per node.
+std::pair<std::vector<std::int32_t>, std::int32_t> connected_sets(const Mesh& mesh) {
+    // nodes of one set have one root
+    std::vector<std::int32_t> root = counted(mesh.n_nodes());
+    const auto find = [&](std::int32_t node) {
+        while (root[index(node)] != node) node = root[index(node)] = root[index(root[index(node)])];
+        return node;
+    };
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e)
+        for (int k = 1; k < mesh.nodes_per_element(); ++k) {
+            const auto [low, high] = std::minmax({find(mesh.element(e)[0]), find(mesh.element(e)[k])});
+            root[index(high)] = low;
+        }
+    std::vector<std::int32_t> set(root.size(), -1);
+    std::int32_t n_sets = 0;
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(root.size()); ++node) {
+        const std::int32_t first = find(node);  // never higher than the node
+        set[index(node)] = first == node ? n_sets++ : set[index(first)];
+    }
+    return {std::move(set), n_sets};
 }
 
 /// Triangles of a mesh, counter-clockwise.
@@ -43,9 +63,19 @@ std::vector<std::array<std::int32_t, 3>> triangles_of(const Mesh& mesh) {
     return all;
 }
 
+std::vector<double> flat(const std::vector<Point2>& nodes) {
+    std::vector<double> all;
+    all.reserve(2 * nodes.size());
+    for (const auto& [x, y] : nodes) {
+        all.push_back(x);
+        all.push_back(y);
+    }
+    return all;
+}
+
 }  // namespace
 
-Mesh ContactBodies::whole(const PartedMesh& start, std::span<const std::int32_t> original) {
+Mesh ContactBodies::put_together(const PartedMesh& start, std::span<const std::int32_t> original) {
     const Mesh& mesh = start.mesh;
     const std::size_t n = index(std::ranges::max(original)) + 1;
     Mesh all;
@@ -64,8 +94,7 @@ Mesh ContactBodies::whole(const PartedMesh& start, std::span<const std::int32_t>
 
 ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> layers, double cap)
     : n_sub_(sub_triangles(start.mesh.kind).size()),
-      original_(originals(start)),
-      bonded_mesh_(whole(start, original_)),
+      bonded_mesh_(put_together(start, originals(start))),
       original_connectivity_(bonded_mesh_.connectivity),
       bonded_(bonded_mesh_),
       potential_(bonded_mesh_.nodes, triangles_of(bonded_mesh_), cap) {
@@ -76,29 +105,19 @@ ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> la
 }
 
 void ContactBodies::find_bodies(std::span<const double> layers) {
-    // nodes of one body have one root
-    std::vector<std::int32_t> root(bonded_mesh_.n_nodes());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::int32_t node) {
-        while (root[index(node)] != node) node = root[index(node)] = root[index(root[index(node)])];
-        return node;
-    };
-    for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e)
-        for (int k = 1; k < bonded_mesh_.nodes_per_element(); ++k) {
-            const auto [low, high] = std::minmax({find(bonded_mesh_.element(e)[0]), find(bonded_mesh_.element(e)[k])});
-            root[index(high)] = low;
-        }
-    body_of_original_.assign(root.size(), -1);
     std::int32_t n_bodies = 0;
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(root.size()); ++node) {
-        const std::int32_t first = find(node);  // never higher than the node
-        body_of_original_[index(node)] = first == node ? n_bodies++ : body_of_original_[index(first)];
-    }
+    std::tie(body_of_original_, n_bodies) = connected_sets(bonded_mesh_);
     compliance_.assign(index(n_bodies), std::numeric_limits<double>::infinity());
     for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e) {
         double& least = compliance_[index(body_of_original_[index(bonded_mesh_.element(e)[0])])];
         least = std::min(least, layers[e]);
     }
+}
+
+void ContactBodies::find_parts() {
+    const std::vector<std::int32_t> set = connected_sets(bonded_mesh_).first;
+    part_.resize(bonded_mesh_.n_elements());
+    for (std::size_t e = 0; e < part_.size(); ++e) part_[e] = set[index(bonded_mesh_.element(e)[0])];
 }
 
 double ContactBodies::least_compliance() const { return *std::ranges::min_element(compliance_); }
@@ -138,36 +157,83 @@ void ContactBodies::fail(std::span<const std::int32_t> sides) {
 }
 
 void ContactBodies::follow(const Parting& parting) {
-    append_originals(original_, parting.copies);
     fail(parting.failed);
     refresh(parting.mesh);
 }
 
+std::span<const double> ContactBodies::displacements(std::span<const double> u, std::vector<double>& scratch) const {
+    if (whole_) return u;
+    scratch.resize(2 * n_nodes());
+    parallel_ranges(n_nodes(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t node = first; node < last; ++node) {
+            const auto all = held(static_cast<std::int32_t>(node));
+            double x = 0, y = 0;
+            for (const std::int32_t one : all) {
+                x += u[2 * index(one)];
+                y += u[2 * index(one) + 1];
+            }
+            scratch[2 * node] = x / static_cast<double>(all.size());
+            scratch[2 * node + 1] = y / static_cast<double>(all.size());
+        }
+    });
+    return scratch;
+}
+
+void ContactBodies::spread(std::span<const double> forces, std::span<double> f) const {
+    parallel_ranges(n_nodes(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t node = first; node < last; ++node) {
+            const double x = forces[2 * node], y = forces[2 * node + 1];
+            if (x == 0 && y == 0) continue;
+            const auto all = held(static_cast<std::int32_t>(node));
+            for (const std::int32_t one : all) {
+                f[2 * index(one)] += x / static_cast<double>(all.size());
+                f[2 * index(one) + 1] += y / static_cast<double>(all.size());
+            }
+        }
+    });
+}
+
 void ContactBodies::refresh(const Mesh& mesh) {
-    assert(mesh.n_nodes() == original_.size());
-    triangles_ = triangles_of(mesh);
-    reference_.clear();
-    for (const auto& [x, y] : mesh.nodes) {
-        reference_.push_back(x);
-        reference_.push_back(y);
-    }
-    joined_.assign(mesh.n_nodes(), -1);
+    constexpr std::int32_t none = -1;
+    bonded_of_.assign(mesh.n_nodes(), none);
     for (std::size_t k = 0; k < mesh.connectivity.size(); ++k)
-        joined_[index(mesh.connectivity[k])] = bonded_mesh_.connectivity[k];
+        bonded_of_[index(mesh.connectivity[k])] = bonded_mesh_.connectivity[k];
+    whole_ = bonded_of_.size() == n_nodes();
+    first_held_.assign(n_nodes() + 1, 0);
+    for (std::size_t node = 0; node < bonded_of_.size(); ++node) {
+        whole_ = whole_ && bonded_of_[node] == static_cast<std::int32_t>(node);
+        ++first_held_[index(bonded_of_[node]) + 1];
+    }
+    std::partial_sum(first_held_.begin(), first_held_.end(), first_held_.begin());
+    held_.resize(bonded_of_.size());
+    std::vector<std::int32_t> next(first_held_.begin(), first_held_.end() - 1);
+    for (std::size_t node = 0; node < bonded_of_.size(); ++node)
+        held_[index(next[index(bonded_of_[node])]++)] = static_cast<std::int32_t>(node);
+
+    triangles_ = triangles_of(bonded_mesh_);
+    find_parts();
+    reference_ = flat(bonded_mesh_.nodes);
+    mesh_reference_ = flat(mesh.nodes);
+    const std::vector<BoundaryEdge> boundary = edges_of(bonded_mesh_);
+    points_ = contactor_points(boundary, bonded_mesh_.nodes);
+    mesh_points_ = contactor_points(edges_of(mesh), mesh.nodes);
+    boundary_length_.assign(n_nodes(), 0);
+    shortest_edge_ = std::numeric_limits<double>::infinity();
+    for (const BoundaryEdge& edge : boundary) {
+        const double length = distance(bonded_mesh_.nodes[index(edge.a)], bonded_mesh_.nodes[index(edge.b)]);
+        shortest_edge_ = std::min(shortest_edge_, length);
+        for (const std::int32_t node : {edge.a, edge.b}) boundary_length_[index(node)] += 0.5 * length;
+    }
+}
+
+std::vector<BoundaryEdge> ContactBodies::edges_of(const Mesh& mesh) const {
     std::vector<BoundaryEdge> boundary;
     boundary.reserve(edges_.size());
     for (const Edge& edge : edges_) {
         const std::int32_t* nodes = mesh.element(index(edge.element));
         boundary.push_back({nodes[edge.a], nodes[edge.b], edge.element});
     }
-    points_ = contactor_points(boundary, mesh.nodes);
-    boundary_length_.assign(mesh.n_nodes(), 0);
-    shortest_edge_ = std::numeric_limits<double>::infinity();
-    for (const BoundaryEdge& edge : boundary) {
-        const double length = distance(mesh.nodes[index(edge.a)], mesh.nodes[index(edge.b)]);
-        shortest_edge_ = std::min(shortest_edge_, length);
-        for (const std::int32_t node : {edge.a, edge.b}) boundary_length_[index(node)] += 0.5 * length;
-    }
+    return boundary;
 }
 
 }  // namespace gneiss

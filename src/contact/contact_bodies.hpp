@@ -2,9 +2,12 @@
 // What contact knows of a mesh: target triangles, contactor points, what is bonded, how deep a point is. It follows the
 // mesh as that comes apart.
 //
-// Three numberings of nodes. Current: the mesh as it is, in which forces act. Original: before any node was copied; the
+// Three numberings of nodes. Of the mesh as it is, in which forces act. Original: before any node was copied; the
 // penetration potential speaks it, because copies stand at one place of the reference shape. Bonded: of a mesh whose
-// sides open when their cohesion has failed, not before: two current nodes with one bonded number are held together.
+// sides open when their cohesion has failed, not before. Contact itself speaks the bonded one: a bonded node stands at
+// the mean of the mesh's nodes that it holds, and what pushes it pushes them alike. So joints that open or close a
+// little leave no gaps and no overlaps in a body: a point inside is in exactly one of its triangles, and the potential
+// that it feels has no jump.
 
 #include <array>
 #include <cstdint>
@@ -37,15 +40,42 @@ public:
     /// Nodes that have been copied, sides that have failed. The cost is that of the whole mesh.
     void follow(const Parting& parting);
 
-    std::size_t n_nodes() const { return joined_.size(); }
+    /// Whether opening these inner sides beside those that have failed parts the faces of each of them, at one end at
+    /// least: without that they lie on each other whatever the displacements, and contact cannot press.
+    /// @returns those among them that come apart, in their order
+    std::vector<std::int32_t> come_apart(std::span<const std::int32_t> sides) const { return bonded_.parted_by(sides); }
+
+    /// Of the mesh as it is.
+    std::size_t n_mesh_nodes() const { return bonded_of_.size(); }
+    /// Bonded.
+    std::size_t n_nodes() const { return bonded_mesh_.n_nodes(); }
+    /// Nodes of the mesh that a bonded node holds, ascending; at least one.
+    std::span<const std::int32_t> held(std::int32_t node) const {
+        const auto first = held_.begin() + first_held_[static_cast<std::size_t>(node)];
+        return {first, held_.begin() + first_held_[static_cast<std::size_t>(node) + 1]};
+    }
+    /// Mean displacements of the bonded nodes, m.
+    /// @param u        of the mesh, m, shape (2 n_mesh_nodes)
+    /// @param scratch  may hold what is returned, shape (2 n_nodes); otherwise that is u
+    std::span<const double> displacements(std::span<const double> u, std::vector<double>& scratch) const;
+    /// Whether the bonded nodes are those of the mesh, number by number.
+    bool whole() const { return whole_; }
+    /// Adds forces on bonded nodes, N, shape (2 n_nodes), to those on the mesh's nodes.
+    void spread(std::span<const double> forces, std::span<double> f) const;
+
     /// Reference positions, m, shape (2 n_nodes).
     std::span<const double> reference() const { return reference_; }
-    /// Current node numbers, counter-clockwise; those of one element one behind the other.
+    /// Counter-clockwise; those of one element one behind the other.
     std::span<const std::array<std::int32_t, 3>> triangles() const { return triangles_; }
     const TrianglePotential& potential(std::size_t triangle) const { return potential_.of_triangle(triangle); }
     const ContactorPoints& points() const { return points_; }
-    /// Bonded number of each node, shape (n_nodes).
-    std::span<const std::int32_t> joined() const { return joined_; }
+    /// Which part of what holds together a triangle belongs to, from 0.
+    std::int32_t part(std::int32_t triangle) const { return part_[static_cast<std::size_t>(triangle) / n_sub_]; }
+
+    /// Contactor points between nodes of the mesh as it is: what meets a wall.
+    const ContactorPoints& mesh_points() const { return mesh_points_; }
+    /// Reference positions of the mesh as it is, m, shape (2 n_mesh_nodes).
+    std::span<const double> mesh_reference() const { return mesh_reference_; }
 
     /// What one side of a contact gives, m/Pa: the size of a layer of elements over its stiffness, the least one of the
     /// body that it was part of at the start. One number per body, not one per element: the penalty then does not jump,
@@ -54,17 +84,20 @@ public:
     double compliance(std::int32_t body) const { return compliance_[static_cast<std::size_t>(body)]; }
     double least_compliance() const;
     std::int32_t body_of_node(std::int32_t node) const {
-        return body_of_original_[static_cast<std::size_t>(original_[static_cast<std::size_t>(node)])];
+        return body_of_original_[static_cast<std::size_t>(bonded_.original_of()[static_cast<std::size_t>(node)])];
+    }
+    std::int32_t body_of_mesh_node(std::int32_t node) const {
+        return body_of_node(bonded_of_[static_cast<std::size_t>(node)]);
     }
 
     /// Shortest edge of the boundary, m.
     double shortest_edge() const { return shortest_edge_; }
-    /// Length of boundary at each node: half of each of its edges, m, shape (n_nodes).
+    /// Length of boundary at each bonded node: half of each of its edges, m, shape (n_nodes).
     std::span<const double> boundary_length() const { return boundary_length_; }
 
-    /// For messages: what the user's file calls them.
+    /// For messages: what the user's file calls a bonded node, and the element of a triangle.
     std::int64_t node_label(std::int32_t node) const {
-        return bonded_mesh_.node_labels[static_cast<std::size_t>(joined_[static_cast<std::size_t>(node)])];
+        return bonded_mesh_.node_labels[static_cast<std::size_t>(node)];
     }
     std::int64_t element_label(std::int32_t triangle) const {
         return bonded_mesh_.element_labels[static_cast<std::size_t>(triangle) / n_sub_];
@@ -77,14 +110,15 @@ private:
         int a, b;
     };
 
-    static Mesh whole(const PartedMesh& start, std::span<const std::int32_t> original);
+    static Mesh put_together(const PartedMesh& start, std::span<const std::int32_t> original);
     void find_bodies(std::span<const double> layers);
+    void find_parts();
     void add_edges(std::span<const BoundaryEdge> contour);
     void fail(std::span<const std::int32_t> sides);
     void refresh(const Mesh& mesh);
+    std::vector<BoundaryEdge> edges_of(const Mesh& mesh) const;
 
-    std::size_t n_sub_;                   ///< triangles per element
-    std::vector<std::int32_t> original_;  ///< of each current node
+    std::size_t n_sub_;  ///< triangles per element
     Mesh bonded_mesh_;
     std::vector<std::int32_t> original_connectivity_;
     InnerSides bonded_;
@@ -96,7 +130,12 @@ private:
     std::vector<double> reference_, boundary_length_;
     std::vector<std::array<std::int32_t, 3>> triangles_;
     ContactorPoints points_;
-    std::vector<std::int32_t> joined_;
+    std::vector<std::int32_t> part_;  ///< per element
+    // bonded nodes and those of the mesh
+    std::vector<std::int32_t> bonded_of_, held_, first_held_;
+    bool whole_ = true;
+    ContactorPoints mesh_points_;
+    std::vector<double> mesh_reference_;
     double shortest_edge_ = 0;
 };
 

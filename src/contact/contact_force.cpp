@@ -76,11 +76,10 @@ void Contact::find_hits(std::span<const double> u) const {
     for (std::size_t r = 0; r < n_ranges; ++r) hits_.insert(hits_.end(), found_[r].begin(), found_[r].end());
 }
 
-bool Contact::joined(std::int32_t triangle, std::int32_t other) const {
-    const auto joined = bodies_.joined();
+bool Contact::adjacent(std::int32_t triangle, std::int32_t other) const {
     for (const std::int32_t a : bodies_.triangles()[index(triangle)])
         for (const std::int32_t b : bodies_.triangles()[index(other)])
-            if (joined[index(a)] == joined[index(b)]) return true;
+            if (a == b) return true;
     return false;
 }
 
@@ -115,7 +114,8 @@ double Contact::match(std::span<const double> history) const {
             taken[slot] = true;
             kept[slot] = known;
         };
-        // the same triangle, else one that holds together with it, else a slot whose body the point has left
+        // the same triangle, else one at it, else one that holds together with it, else a slot whose body the point has
+        // left
         std::size_t n_left = last - first;
         const auto for_each_choice = [&](auto good, bool known) {
             if (n_left == 0) return;
@@ -127,7 +127,10 @@ double Contact::match(std::span<const double> history) const {
                     }
         };
         for_each_choice([](std::int32_t old, std::int32_t now) { return old == now; }, true);
-        for_each_choice([&](std::int32_t old, std::int32_t now) { return old >= 0 && joined(old, now); }, true);
+        for_each_choice([&](std::int32_t old, std::int32_t now) { return old >= 0 && adjacent(old, now); }, true);
+        for_each_choice(
+            [&](std::int32_t old, std::int32_t now) { return old >= 0 && bodies_.part(old) == bodies_.part(now); },
+            true);
         for_each_choice([](std::int32_t, std::int32_t) { return true; }, false);
         for (std::size_t s = 0; s < contact_slots; ++s) {
             const auto triangle = static_cast<std::int32_t>(before[s][point]);
@@ -194,8 +197,9 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
     gather_pairs(members, memories.data(), pairs.old.anchor.x, pairs.old.anchor.y);
     gather_pairs(members + 2, memories.data(), pairs.old.slip.x, pairs.old.slip.y);
     gather_pairs(members + 4, memories.data(), pairs.old.slip_limit, pairs.old.deepest);
+    gather_pairs(members + 6, memories.data(), pairs.old.rest, unused);
     for (Pack* member : {&pairs.old.anchor.x, &pairs.old.anchor.y, &pairs.old.slip.x, &pairs.old.slip.y,
-                         &pairs.old.slip_limit, &pairs.old.deepest})
+                         &pairs.old.slip_limit, &pairs.old.deepest, &pairs.old.rest})
         *member = choose(is_known, *member, Pack(0.0));
     return pairs;
 }
@@ -229,9 +233,9 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
         if (updated.empty()) continue;
         const Memory memory(updated, bodies_.points().size());
         const auto& next = response.next;
-        alignas(pack_alignment) std::array<std::array<double, pack_width>, Memory::n_members> members;
-        const std::array<const Pack*, Memory::n_members> rows{&next.anchor.x, &next.anchor.y,   &next.slip.x,
-                                                              &next.slip.y,   &next.slip_limit, &next.deepest};
+        alignas(pack_alignment) std::array<std::array<double, pack_width>, 7> members;
+        const std::array<const Pack*, 7> rows{&next.anchor.x,   &next.anchor.y, &next.slip.x, &next.slip.y,
+                                              &next.slip_limit, &next.deepest,  &next.rest};
         for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->store_aligned(members[k].data());
         for (std::size_t lane = 0; lane < n_lanes; ++lane) {
             if (slots_[first + lane] < 0) continue;
@@ -241,7 +245,8 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
                         {members[0][lane], members[1][lane]},
                         {members[2][lane], members[3][lane]},
                         members[4][lane],
-                        members[5][lane]});
+                        members[5][lane],
+                        members[6][lane]});
         }
     }
     return deep;
@@ -250,22 +255,29 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
 void Contact::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                         std::span<double> updated) const {
     const double limit = 0.5 * options_.skin;
-    if (const double moved = largest_motion(trial.u); !(moved <= limit))
+    const auto u = bonded(trial.u);
+    if (const double moved = largest_motion(u); !(moved <= limit))
         throw RecoverableError(fmt::format(
             "contact at t = {:.9g} s: a node has moved {:.3g} m since pairs were searched, further than half "
             "of contact.skin, {:.3g} m",
             trial.t, moved, limit));
-    find_hits(trial.u);
+    find_hits(u);
     const double released = match(history);
     if (!updated.empty()) Memory(updated, bodies_.points().size()).free_all();
     if (const std::size_t deep = respond(history, updated); deep < hits_.size()) refuse_deep(trial, deep);
+    std::span<double> on_bonded = f;
+    if (!bodies_.whole()) {
+        f_.assign(2 * bodies_.n_nodes(), 0.0);
+        on_bonded = f_;
+    }
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
     for (std::size_t pack = 0; pack < n_packs; ++pack)
         for (std::size_t k = 0; k < n_nodes; ++k) {
             const double* force = &forces_[(pack * n_dof + 2 * k) * pack_width];
-            scatter_add_pairs(f.data(), &hit_nodes_[(pack * n_nodes + k) * pack_width], Pack::load_aligned(force),
-                              Pack::load_aligned(force + pack_width));
+            scatter_add_pairs(on_bonded.data(), &hit_nodes_[(pack * n_nodes + k) * pack_width],
+                              Pack::load_aligned(force), Pack::load_aligned(force + pack_width));
         }
+    if (!bodies_.whole() && !hits_.empty()) bodies_.spread(f_, f);
     if (updated.empty()) return;
     double slid = released, lost = 0;
     for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
@@ -291,11 +303,12 @@ void Contact::stiffness(const Trial& trial, std::span<const double> history,
                         std::span<ForceTerm::Stiffness> df_du) const {
     using D = Dual<static_cast<int>(n_dof), Pack>;
     std::ranges::fill(df_du, ForceTerm::Stiffness{0, 0, 0, 0});
-    find_hits(trial.u);
+    find_hits(bonded(trial.u));
     match(history);
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
     hit_nodes_.resize(n_packs * n_nodes * pack_width);
     ranges_of_packs(n_packs, [&](std::size_t first, std::size_t last) {
+        std::vector<Held> nodes;
         for (std::size_t pack = first; pack < last; ++pack) {
             const LoadedPairs pairs = load(pack, history);
             const std::array<Vec2<Pack>, n_nodes> at{pairs.a, pairs.b, pairs.x[0], pairs.x[1], pairs.x[2]};
@@ -306,11 +319,16 @@ void Contact::stiffness(const Trial& trial, std::span<const double> history,
             const auto f = nodal_forces(pairs.respond(moved[0], moved[1], std::array{moved[2], moved[3], moved[4]}),
                                         pairs.weight_b);
             for (std::size_t lane = 0; lane < pack_width && pack * pack_width + lane < hits_.size(); ++lane) {
-                ForceTerm::Stiffness* to = &df_du[index(hits_[pack * pack_width + lane]) * n_nodes * n_nodes];
-                for (std::size_t a = 0; a < n_nodes; ++a)
-                    for (std::size_t b = 0; b < n_nodes; ++b)
-                        *to++ = {f[a].x.derivative[2 * b].get(lane), f[a].x.derivative[2 * b + 1].get(lane),
-                                 f[a].y.derivative[2 * b].get(lane), f[a].y.derivative[2 * b + 1].get(lane)};
+                const std::size_t candidate = index(hits_[pack * pack_width + lane]);
+                ForceTerm::Stiffness* to = &df_du[first_coupling_[candidate]];
+                held_by(candidates_.pairs[candidate], nodes);
+                for (const Held& a : nodes)
+                    for (const Held& b : nodes) {
+                        const double share = a.share * b.share;
+                        const auto &fx = f[a.local].x.derivative, &fy = f[a.local].y.derivative;
+                        *to++ = {share * fx[2 * b.local].get(lane), share * fx[2 * b.local + 1].get(lane),
+                                 share * fy[2 * b.local].get(lane), share * fy[2 * b.local + 1].get(lane)};
+                    }
             }
         }
     });

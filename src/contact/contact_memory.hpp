@@ -3,7 +3,7 @@
 //
 //     dissipated by friction, by restitution (J)
 //     which triangle each slot of each point touches, -1: the slot is free    shape (slots, points)
-//     what it remembers there; of a free slot nothing is meant by it          shape (slots, points, 6)
+//     what it remembers there; of a free slot nothing is meant by it          shape (slots, points, 8)
 //
 // Free slots cost one number each: what they held is neither cleared nor read. Most points are in one body at most, so
 // that what is read stands one behind the other.
@@ -24,7 +24,8 @@ inline constexpr std::size_t contact_slots = 3;
 template <class Number>
 class ContactMemory {
 public:
-    static constexpr std::size_t n_sums = 2, n_members = 6;
+    static constexpr std::size_t n_sums = 2;
+    static constexpr std::size_t n_members = 8;  ///< the last one is not used: members are read in pairs
     static std::size_t size(std::size_t n_points) { return n_sums + n_points * contact_slots * (1 + n_members); }
 
     /// @param values  shape (size(n_points))
@@ -41,7 +42,7 @@ public:
     }
     ContactHistory<double> at(std::size_t point, std::size_t slot) const {
         const Number* v = &values_[place(point, slot)];
-        return {1.0, {v[0], v[1]}, {v[2], v[3]}, v[4], v[5]};
+        return {1.0, {v[0], v[1]}, {v[2], v[3]}, v[4], v[5], v[6]};
     }
     void set(std::size_t point, std::size_t slot, std::int32_t triangle, const ContactHistory<double>& history) const {
         triangles(slot)[point] = triangle;
@@ -52,8 +53,9 @@ public:
         v[3] = history.slip.y;
         v[4] = history.slip_limit;
         v[5] = history.deepest;
+        v[6] = history.rest;
     }
-    /// What points remember as pairs of numbers: three in a row for a point and a slot, the first of them by its
+    /// What points remember as pairs of numbers: four in a row for a point and a slot, the first of them by its
     /// number.
     Number* pairs() const { return &values_[place(0, 0)]; }
     std::size_t pair_of(std::size_t point, std::size_t slot) const {

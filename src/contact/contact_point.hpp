@@ -36,6 +36,10 @@
 // the spring counts as dissipated. So a history belongs to a point and to the body that it is in, not to a triangle: it
 // survives where the target has not come apart between the old triangle and the new one.
 //
+// Rest depth. What overlaps already when contact takes over, because it was bonded until then, would be pushed apart
+// with an energy from nowhere. Such a pair has a rest depth phi_0, from which its penetration is counted: <phi - phi_0>
+// stands for phi above. phi_0 goes down with phi as the overlap comes apart, without a force, and never up.
+//
 // The history is that of the last accepted state; a trial reads it and returns what accepting would leave.
 
 #include <array>
@@ -98,14 +102,15 @@ struct ContactHistory {
     Vec2<V> anchor{V(0.0), V(0.0)};  ///< A, m, in the reference shape of the target
     Vec2<V> slip{V(0.0), V(0.0)};    ///< S = s t, elastic slip, m
     V slip_limit = V(0.0);           ///< largest |s| that friction held, m
-    V deepest = V(0.0);              ///< largest phi since contact began, m
+    V deepest = V(0.0);              ///< largest depth since contact began, m
+    V rest = V(0.0);                 ///< phi_0, m, >= 0
 };
 
 template <class T, class V>
 struct ContactResponse {
     Vec2<T> force;                       ///< on the contactor point, N; on node j of the target -lambda[j] force
     std::array<T, 3> lambda;             ///< barycentric coordinates of the point
-    T depth;                             ///< phi, m, >= 0
+    T depth;                             ///< <phi - phi_0>, m
     V stored_normal;                     ///< J
     V stored_tangential;                 ///< J
     V dissipated_normal;                 ///< by restitution since the accepted state, J, >= 0
@@ -162,14 +167,15 @@ ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Ve
     const V c_2 = target.nodal[2] + choose(least_0 | least_1, V(0.0), target.bubble);
     const V rise_1 = c_1 - c_0, rise_2 = c_2 - c_0;
     const T phi = rise_1 * lambda_1 + rise_2 * lambda_2 + T(c_0);
-    result.depth = choose(plain(phi) > V(0.0), phi, T(V(0.0)));
+    const T beyond = phi - T(old.rest);
+    result.depth = choose(plain(beyond) > V(0.0), beyond, T(V(0.0)));
     const Vec2<T> g = rise_1 * grad_1 + rise_2 * grad_2;
     const Vec2<V> reference_g{(rise_1 * edge_2.y - rise_2 * edge_1.y) * per_reference_area,
                               (rise_2 * edge_1.x - rise_1 * edge_2.x) * per_reference_area};
     const V depth = plain(result.depth);
-    result.too_deep = depth >= target.reach;
+    result.too_deep = plain(phi) >= target.reach;
 
-    // normal force: along p_n while phi is the deepest so far, along p_n/e^2 below
+    // normal force: along p_n while the depth is the deepest so far, along p_n/e^2 below
     if constexpr (tangential == Tangential::none) {
         const T normal_force = law.normal_stiffness * result.depth;
         result.force = -(normal_force * g);
@@ -220,6 +226,8 @@ ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Ve
     result.next.anchor = Vec2<V>{plain(place.x), plain(place.y)} - result.next.slip;
     result.next.slip_limit = l;
     result.next.deepest = plain(deepest);
+    const V still = choose(plain(phi) > V(0.0), plain(phi), V(0.0));
+    result.next.rest = choose(still < old.rest, still, old.rest);
     return result;
 }
 

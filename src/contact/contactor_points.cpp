@@ -25,9 +25,27 @@ ContactorPoints contactor_points(std::span<const BoundaryEdge> edges, std::span<
             }
             points.length[static_cast<std::size_t>(point)] += length / 6;
         }
+        points.of_edge.push_back({point_of[static_cast<std::size_t>(edge.a)],
+                                  point_of[static_cast<std::size_t>(edge.b)],
+                                  static_cast<std::int32_t>(points.size())});
         append(edge.a, edge.b, 0.5, length * 2 / 3);
     }
     return points;
+}
+
+std::vector<FormerPoint> former_points(const ContactorPoints& old, const ContactorPoints& now) {
+    std::vector<FormerPoint> former(now.size());
+    for (std::size_t edge = 0; edge < old.of_edge.size(); ++edge) {
+        const auto& points = now.of_edge[edge];
+        const double middle = now.length[static_cast<std::size_t>(points[2])];
+        const std::array lengths{middle / 4, middle / 4, middle};  // Simpson's
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const auto p = static_cast<std::size_t>(points[k]);
+            former[p].point = old.of_edge[edge][k];
+            former[p].share += lengths[k] / now.length[p];
+        }
+    }
+    return former;
 }
 
 }  // namespace gneiss

@@ -43,7 +43,7 @@ double shortest_edge(const Mesh& mesh) {
 }
 
 void refuse_overlaps(const Contact& contact) {
-    const std::vector<double> at_rest(2 * contact.bodies().n_nodes(), 0.0);
+    const std::vector<double> at_rest(2 * contact.bodies().n_mesh_nodes(), 0.0);
     const auto overlaps = contact.overlaps(at_rest, overlap_tolerance * contact.bodies().shortest_edge());
     std::vector<Problem> problems;
     for (std::size_t i = 0; i < std::min(overlaps.size(), most_named); ++i) {
@@ -64,7 +64,7 @@ void refuse_overlaps(const Contact& contact) {
 }  // namespace
 
 std::unique_ptr<Contact> make_contact(const PartedMesh& start, std::span<const std::unique_ptr<ElementBlock>> blocks,
-                                      const SolidOptions& solid, const ContactOptions& contact) {
+                                      const SolidOptions& solid, const ContactOptions& contact, bool comes_apart) {
     // a given penalty is that of two equal layers in series
     const std::vector<double> layers = contact.penalty > 0
                                            ? std::vector<double>(start.mesh.n_elements(), 0.5 / contact.penalty)
@@ -72,7 +72,7 @@ std::unique_ptr<Contact> make_contact(const PartedMesh& start, std::span<const s
     auto made = std::make_unique<Contact>(
         start, layers, contact.potential_cap,
         Contact::Options{solid.thickness, contact.friction, contact.restitution, contact.tangential_factor,
-                         contact.skin * shortest_edge(start.mesh)});
+                         contact.skin * shortest_edge(start.mesh), comes_apart});
     refuse_overlaps(*made);
     return made;
 }

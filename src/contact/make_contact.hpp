@@ -15,6 +15,6 @@ namespace gneiss {
 /// @throws InputError if an option is out of its range, or bodies overlap in the reference shape: ten pairs by name, of
 /// the others the number
 std::unique_ptr<Contact> make_contact(const PartedMesh& start, std::span<const std::unique_ptr<ElementBlock>> blocks,
-                                      const SolidOptions& solid, const ContactOptions& contact);
+                                      const SolidOptions& solid, const ContactOptions& contact, bool comes_apart);
 
 }  // namespace gneiss

@@ -36,10 +36,7 @@ struct CandidatePacks {
 
     std::size_t n_packs() const { return points.size() / pack_width; }
 
-    /// @param joined  numbers that decide which end of an edge is the lower one: two triangles that are held together
-    /// along it agree, even if each has nodes of its own
-    void assign(std::span<const ContactCandidate> found, std::span<const std::array<std::int32_t, 3>> triangles,
-                std::span<const std::int32_t> joined) {
+    void assign(std::span<const ContactCandidate> found, std::span<const std::array<std::int32_t, 3>> triangles) {
         static_assert(pack_width <= 8);
         pairs.assign(found.begin(), found.end());
         const std::size_t n = padded(pairs.size());
@@ -51,13 +48,9 @@ struct CandidatePacks {
             const auto& triangle = triangles[static_cast<std::size_t>(pair.triangle)];
             const std::size_t pack = i / pack_width, lane = i % pack_width;
             points[i] = {pair.point};
-            std::array<std::int32_t, 3> number;
             for (std::size_t k = 0; k < 3; ++k) {
                 nodes[(3 * pack + k) * pack_width + lane] = {triangle[k]};
-                number[k] = joined[static_cast<std::size_t>(triangle[k])];
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int bit = number[(k + 1) % 3] < number[(k + 2) % 3] ? 1 : 0;
+                const int bit = triangle[(k + 1) % 3] < triangle[(k + 2) % 3] ? 1 : 0;
                 rising[3 * pack + k] = static_cast<std::uint8_t>(rising[3 * pack + k] | bit << lane);
             }
         }

@@ -31,7 +31,7 @@ struct Walls::Response {
 Walls::Walls(const Contact& contact, std::vector<Wall> walls)
     : contact_(contact),
       walls_(std::move(walls)),
-      points_(contact.bodies().points()),
+      points_(contact.bodies().mesh_points()),
       restitution_(contact.options().restitution),
       tangential_factor_(contact.options().tangential_factor),
       thickness_(contact.options().thickness) {}
@@ -46,11 +46,11 @@ void Walls::initial_history(std::span<double> history) const { std::ranges::fill
 
 double Walls::stiffness_of(std::size_t point) const {
     const ContactBodies& bodies = contact_.bodies();
-    return 2 * thickness_ * points_.length[point] / bodies.compliance(bodies.body_of_node(points_.a[point]));
+    return 2 * thickness_ * points_.length[point] / bodies.compliance(bodies.body_of_mesh_node(points_.a[point]));
 }
 
 Vec2<double> Walls::position(std::size_t point, std::span<const double> u) const {
-    const auto reference = contact_.bodies().reference();
+    const auto reference = contact_.bodies().mesh_reference();
     const auto at = [&](std::int32_t node) {
         const std::size_t k = 2 * index(node);
         return Vec2<double>{reference[k] + u[k], reference[k + 1] + u[k + 1]};
@@ -144,12 +144,13 @@ void Walls::follow(const Parting&, const State& accepted, std::vector<double>& h
     const ContactorPoints old = points_;
     const std::size_t n_front = place(0, 0);
     std::vector<double> now(history.begin(), history.begin() + static_cast<std::ptrdiff_t>(n_front));
-    points_ = contact_.bodies().points();
-    const std::vector<std::int32_t> same = same_points(old, points_);
+    points_ = contact_.bodies().mesh_points();
+    const std::vector<FormerPoint> former = former_points(old, points_);
     for (std::size_t w = 0; w < walls_.size(); ++w)
-        for (const std::int32_t q : same)
+        for (const FormerPoint& point : former)
             for (std::size_t k = 0; k < n_members; ++k)
-                now.push_back(q < 0 ? 0.0 : history[n_front + (w * old.size() + index(q)) * n_members + k]);
+                now.push_back(
+                    point.point < 0 ? 0.0 : history[n_front + (w * old.size() + index(point.point)) * n_members + k]);
     history = std::move(now);
     add_stored(Trial::of(accepted), history, after);
     energies.splitting += after.contact - before.contact;
@@ -231,7 +232,7 @@ void Walls::add_dissipated(std::span<const double> from, std::span<const double>
 }
 
 double Walls::deepest_at_rest() const {
-    const std::vector<double> at_rest(2 * contact_.bodies().n_nodes(), 0.0);
+    const std::vector<double> at_rest(2 * contact_.bodies().n_mesh_nodes(), 0.0);
     double deepest = -std::numeric_limits<double>::infinity();
     for (const Wall& wall : walls_)
         for (std::size_t point = 0; point < points_.size(); ++point)

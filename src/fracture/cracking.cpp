@@ -77,7 +77,7 @@ std::vector<bool> Cracking::broken_sides(const State& state) const {
 }
 
 bool Cracking::stirred(const State& state) const {
-    if (parts_.contact && parts_.joints.any_failed(history(state))) return true;
+    if (parts_.come_apart && parts_.joints.any_failed(history(state))) return true;
     const ElementForces& elements = parts_.solid.elements();
     for (std::size_t b = 0; b < elements.blocks().size(); ++b)
         if (std::ranges::any_of(elements.beyond(b, state), [](double lanes) { return lanes != 0; })) return true;
@@ -88,7 +88,7 @@ EventOutcome Cracking::look(State& accepted) {
     ++look_;
     Change change;
     if (!parts_.properties.empty()) change.opened = sides_beyond(accepted);
-    if (parts_.contact) change.failed = parts_.joints.sides_let_go(accepted, history(accepted));
+    if (parts_.come_apart) change.failed = parts_.come_apart(parts_.joints.sides_let_go(accepted, history(accepted)));
     if (change.opened.empty() && change.failed.empty()) return EventOutcome::none;
     accepted.path.splitting -=
         parts_.joints.hand_over(change.failed, accepted, parts_.solid.history_of(parts_.joints, accepted));

@@ -32,8 +32,9 @@ public:
         /// Of the sub-edges of every inner side, one behind the other; empty: no side opens, joints are there from the
         /// start.
         std::vector<CohesionProperties<double>> properties = {};
-        /// Whether failed sides are handed to contact; otherwise their joints go on to press.
-        bool contact = false;
+        /// Which of these failed sides contact can take over: ContactBodies::come_apart(). Joints of the others go on
+        /// to press, all of them where this is empty.
+        std::function<std::vector<std::int32_t>(std::span<const std::int32_t>)> come_apart = {};
         /// Loads, constraints and absorbing boundaries of the mesh as it is. Called when a node of a named place was
         /// copied.
         std::function<SolidSystem::Surroundings(const Mesh&)> surroundings = {};

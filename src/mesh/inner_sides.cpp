@@ -73,30 +73,57 @@ void InnerSides::rename(std::int32_t element, std::int32_t from, std::int32_t to
     std::ranges::replace(nodes, from, to);
 }
 
-void InnerSides::split(std::int32_t node, std::vector<NodeCopy>& copies) {
-    std::vector<std::int32_t> left;
-    std::ranges::copy(elements_at(node), std::back_inserter(left));
-    std::ranges::sort(left);
-    std::vector<std::vector<std::int32_t>> groups;
-    while (!left.empty()) {
-        std::vector<std::int32_t>& group = groups.emplace_back(1, left.front());
-        left.erase(left.begin());
-        for (std::size_t i = 0; i < group.size(); ++i) {
-            const std::int32_t e = group[i];
-            const std::int32_t* nodes = mesh_.element(static_cast<std::size_t>(e));
-            for (int side = 0; side < 3; ++side) {
-                const auto local = side_nodes(mesh_.kind, side);
-                if (std::ranges::none_of(local, [&](int k) { return nodes[k] == node; })) continue;
-                const auto other = std::ranges::find(left, bonded({e, side}));
-                if (other == left.end()) continue;
-                group.push_back(*other);
-                left.erase(other);
-            }
+std::vector<std::int32_t> InnerSides::take_group(std::int32_t node, std::vector<std::int32_t>& left,
+                                                 std::span<const std::int32_t> more) const {
+    std::vector<std::int32_t> group(1, left.front());
+    left.erase(left.begin());
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const std::int32_t e = group[i];
+        const std::int32_t* nodes = mesh_.element(static_cast<std::size_t>(e));
+        for (int side = 0; side < 3; ++side) {
+            const auto local = side_nodes(mesh_.kind, side);
+            if (std::ranges::none_of(local, [&](int k) { return nodes[k] == node; })) continue;
+            if (std::ranges::binary_search(more, number({e, side}))) continue;
+            const auto other = std::ranges::find(left, bonded({e, side}));
+            if (other == left.end()) continue;
+            group.push_back(*other);
+            left.erase(other);
         }
     }
+    std::ranges::sort(group);
+    return group;
+}
+
+std::vector<std::int32_t> InnerSides::parted_by(std::span<const std::int32_t> sides) const {
+    std::vector<std::int32_t> more(sides.begin(), sides.end());
+    std::ranges::sort(more);
+    const auto parts_at = [&](const InnerSide& side, std::int32_t node) {
+        std::vector<std::int32_t> left(elements_at(node).begin(), elements_at(node).end());
+        if (!std::ranges::binary_search(left, side.right.element)) return true;  // it has parted already
+        while (true) {
+            const std::vector<std::int32_t> group = take_group(node, left, more);
+            const bool has_left = std::ranges::binary_search(group, side.left.element);
+            const bool has_right = std::ranges::binary_search(group, side.right.element);
+            if (has_left || has_right) return has_left != has_right;
+        }
+    };
+    std::vector<std::int32_t> parted;
+    for (const std::int32_t s : sides) {
+        const InnerSide& side = sides_[static_cast<std::size_t>(s)];
+        const std::int32_t* nodes = mesh_.element(static_cast<std::size_t>(side.left.element));
+        if (std::ranges::any_of(side_nodes(mesh_.kind, side.left.side),
+                                [&](int k) { return parts_at(side, nodes[k]); }))
+            parted.push_back(s);
+    }
+    return parted;
+}
+
+void InnerSides::split(std::int32_t node, std::vector<NodeCopy>& copies) {
+    std::vector<std::int32_t> left(elements_at(node).begin(), elements_at(node).end());
+    std::vector<std::vector<std::int32_t>> groups;
+    while (!left.empty()) groups.push_back(take_group(node, left, {}));
     std::int32_t first = at_node_[static_cast<std::size_t>(node)].first;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        std::ranges::sort(groups[g]);
         const Range range{first, static_cast<std::int32_t>(groups[g].size())};
         std::ranges::copy(groups[g], elements_.begin() + first);
         first += range.n;

@@ -42,6 +42,11 @@ public:
     /// @return the copies, in the order of their numbers
     std::vector<NodeCopy> open(std::span<const std::int32_t> sides);
 
+    /// Sides among these whose two faces would have a node of their own each, at one end or between them, if all of
+    /// them were opened. One that stands alone inside a mesh of three-noded elements has none: both ends hold together
+    /// around it.
+    std::vector<std::int32_t> parted_by(std::span<const std::int32_t> sides) const;
+
     /// Numbers the nodes anew, in the order in which elements have them: copies stand at the end until then, far from
     /// their neighbours.
     void renumber();
@@ -62,6 +67,11 @@ private:
     }
     /// Parts the elements at a node into groups that hold together.
     void split(std::int32_t node, std::vector<NodeCopy>& copies);
+    /// Those among `left`, ascending, that are bonded to its first one around a node, the first one included; they are
+    /// taken out of it.
+    /// @param more  sides that count as open, ascending
+    std::vector<std::int32_t> take_group(std::int32_t node, std::vector<std::int32_t>& left,
+                                         std::span<const std::int32_t> more) const;
     /// The element across a side of an element; -1: none, or not bonded.
     std::int32_t bonded(const ElementSide& side) const;
     void rename(std::int32_t element, std::int32_t from, std::int32_t to);

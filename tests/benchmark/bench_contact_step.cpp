@@ -109,7 +109,7 @@ void step(::benchmark::State& state, Fragments kind, double friction) {
     if (kind != Fragments::none) {
         ContactOptions options;
         options.friction = friction;
-        auto made = make_contact({rubble.mesh, rubble.original_of, rubble.failed}, parts.blocks, solid, options);
+        auto made = make_contact({rubble.mesh, rubble.original_of, rubble.failed}, parts.blocks, solid, options, false);
         contact = made.get();
         parts.interactions.push_back(std::move(made));
     }

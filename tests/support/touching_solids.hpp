@@ -41,7 +41,7 @@ inline Solid touching_solid(Mesh mesh, const ContactOptions& contact, const Soli
                             const Contact** made = nullptr) {
     const Mesh copy = mesh;
     return make_solid(std::move(mesh), what, [&](SolidSystem::Parts& parts) {
-        auto interaction = make_contact({copy}, parts.blocks, what.solid, contact);
+        auto interaction = make_contact({copy}, parts.blocks, what.solid, contact, false);
         if (made != nullptr) *made = interaction.get();
         parts.interactions.push_back(std::move(interaction));
     });

@@ -38,7 +38,7 @@ double distance_to(const Soup& soup, std::size_t t, double px, double py) {
     return inside ? 0 : nearest;
 }
 
-/// All pairs that are not joined and whose distance is below `reach`, by trying every one.
+/// All pairs whose triangle does not have the point's edge and whose distance is below `reach`, by trying every one.
 Candidates within(const Soup& soup, double reach) {
     Candidates pairs;
     for (std::size_t p = 0; p < soup.points.size(); ++p) {
@@ -47,12 +47,10 @@ Candidates within(const Soup& soup, double reach) {
         const double px = (1 - w) * soup.x[2 * a] + w * soup.x[2 * b];
         const double py = (1 - w) * soup.x[2 * a + 1] + w * soup.x[2 * b + 1];
         for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-            bool apart = true;
-            for (const std::int32_t node : soup.triangles[t]) {
-                const std::int32_t label = soup.joined[static_cast<std::size_t>(node)];
-                apart = apart && label != soup.joined[a] && label != soup.joined[b];
-            }
-            if (apart && distance_to(soup, t, px, py) <= reach)
+            const auto has = [&](std::int32_t node) {
+                return std::ranges::find(soup.triangles[t], node) != soup.triangles[t].end();
+            };
+            if (!(has(soup.points.a[p]) && has(soup.points.b[p])) && distance_to(soup, t, px, py) <= reach)
                 pairs.push_back({static_cast<std::int32_t>(p), static_cast<std::int32_t>(t)});
         }
     }
@@ -108,8 +106,7 @@ TEST(CellSearch, TipBeforeASharpCorner_EndsAtTheBox) {
     Soup soup;
     soup.x = {0, 0, 10, -0.1, 10, 0.1, -0.5, 0, -0.05, 0, 5, 0};
     soup.triangles = {{0, 1, 2}};
-    soup.points = {{3, 4, 5}, {3, 4, 5}, {0, 0, 0}, {1, 1, 1}};
-    soup.joined = {0, 1, 2, 3, 4, 5};
+    soup.points = {{3, 4, 5}, {3, 4, 5}, {0, 0, 0}, {1, 1, 1}, {}};
     EXPECT_THAT(searched(soup, 0.1), ElementsAre(ContactCandidate{1, 0}, ContactCandidate{2, 0}));
 }
 
@@ -145,25 +142,22 @@ TEST(CellSearch, CellsThatShareANumber_AreToldApart) {
     EXPECT_TRUE(std::includes(possible.begin(), possible.end(), found.begin(), found.end()));
 }
 
-TEST(CellSearch, JoinedNodes_KeepPairsOutOfTheList) {
-    // two triangles on a common edge with four nodes, and again with six nodes bonded two by two
+TEST(CellSearch, TrianglesOfThePointsEdge_StayOutOfTheList) {
+    // two triangles on a common edge, one's own nodes, and the middles of edges
     Soup shared;
     shared.x = {0, 0, 1, 0, 0, 1, 1, 1};
     shared.triangles = {{0, 1, 2}, {1, 3, 2}};
-    shared.points = {{0, 1, 2, 1}, {1, 2, 0, 3}, {0.5, 0.5, 0.5, 0.5}, {1, 1, 1, 1}};
-    shared.joined = {0, 1, 2, 3};
+    shared.points = {{0, 1, 2, 1, 0, 1}, {1, 2, 0, 3, 0, 1}, {0.5, 0.5, 0.5, 0.5, 0, 0}, {1, 1, 1, 1, 1, 1}, {}};
     EXPECT_THAT(searched(shared, 0.1), IsEmpty());
-
-    Soup apart;
-    apart.x = {0, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1};
-    apart.triangles = {{0, 1, 2}, {3, 4, 5}};
-    apart.points = {{1}, {2}, {0.5}, {1}};  // the middle of the common edge, of the first
-    apart.joined = {0, 1, 2, 1, 3, 2};
-    EXPECT_THAT(searched(apart, 0.1), IsEmpty());
-    apart.joined = {0, 1, 2, 4, 3, 5};  // broken
-    EXPECT_THAT(searched(apart, 0.1), ElementsAre(ContactCandidate{0, 1}));
-    apart.joined = {0, 1, 2, 4, 3, 2};  // at one end only
-    EXPECT_THAT(searched(apart, 0.1), IsEmpty());
+    // the middle of an edge that only touches a triangle's corner is its own business: a wedge may close
+    EXPECT_THAT(searched(shared, 0.6),
+                ElementsAre(ContactCandidate{0, 1}, ContactCandidate{2, 1}, ContactCandidate{3, 0}));
+    // parted, at one end only
+    Soup wedge;
+    wedge.x = {0, 0, 1, 0, 0, 1, 1, 0, 1, 1};
+    wedge.triangles = {{0, 1, 2}, {3, 4, 2}};
+    wedge.points = {{1, 1}, {2, 1}, {0.5, 0}, {1, 1}, {}};
+    EXPECT_THAT(searched(wedge, 0.1), ElementsAre(ContactCandidate{0, 1}, ContactCandidate{1, 1}));
 }
 
 TEST(CellSearch, PairsWithinHalfTheSkin_StayComplete) {
@@ -221,7 +215,6 @@ TEST(CellSearch, NothingToSearch_IsAnEmptyList) {
     Soup soup;
     EXPECT_THAT(searched(soup, 0.1), IsEmpty());
     soup.x = {0, 0, 1, 0, 0, 1};
-    soup.joined = {0, 1, 2};
     soup.triangles = {{0, 1, 2}};
     EXPECT_THAT(searched(soup, 0.1), IsEmpty());
 }

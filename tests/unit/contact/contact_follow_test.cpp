@@ -8,7 +8,7 @@
 
 #include "contact/contact.hpp"
 #include "support/one_thread.hpp"
-#include "support/small_solids.hpp"
+#include "support/touching_solids.hpp"
 
 namespace gneiss {
 namespace {
@@ -120,6 +120,135 @@ TEST_P(FollowOf, NodesSplitAsSidesFail_AsIfStartedThere) {
         history = evaluate(contact, state, history).history;
     }
     EXPECT_GT(n_touching, failed.size() / 2);
+}
+
+/// Two bodies, the upper one 2 mm inside the lower one, all of whose sides are open while nothing has failed.
+class Bonded : public testing::TestWithParam<bool> {
+protected:
+    std::int32_t n_lower = 0;  ///< nodes of the lower body
+    const Mesh whole = [this] {
+        Mesh lower = test::rectangle(GetParam(), 2, 1, {3, 2}), upper = test::rectangle(GetParam(), 1, 1, {2, 2});
+        test::distort(lower, 0.25, 0.2, 3);
+        n_lower = static_cast<std::int32_t>(lower.n_nodes());
+        return test::together(std::move(lower), test::moved(std::move(upper), 0.53, 0.998));
+    }();
+    Mesh mesh = whole;
+    InnerSides sides = InnerSides(mesh);
+    std::vector<std::int32_t> all = [this] {
+        std::vector<std::int32_t> numbers(sides.sides().size());
+        std::iota(numbers.begin(), numbers.end(), 0);
+        sides.open(numbers);
+        return numbers;
+    }();
+    /// Joints opened and closed by up to 0.4 mm.
+    State state = displaced(mesh.n_nodes(), 2e-4, 7);
+};
+INSTANTIATE_TEST_SUITE_P(Elements, Bonded, testing::Bool(),
+                         [](const auto& instance) { return std::string(instance.param ? "Compt" : "Cst"); });
+
+TEST_P(Bonded, JointsThatGiveALittle_PressAsOneBodyAtTheirMeans) {
+    const Contact parted({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
+    const Contact one({whole}, layers_of(whole), cap, rough());
+    State mean;
+    mean.u.assign(2 * whole.n_nodes(), 0.0);
+    std::vector<double> n_copies(whole.n_nodes(), 0.0);
+    const auto original = [&](std::size_t node) { return static_cast<std::size_t>(sides.original_of()[node]); };
+    for (std::size_t node = 0; node < mesh.n_nodes(); ++node) ++n_copies[original(node)];
+    for (std::size_t i = 0; i < state.u.size(); ++i)
+        mean.u[2 * original(i / 2) + i % 2] += state.u[i] / n_copies[original(i / 2)];
+    std::vector<double> history(one.n_history());
+    one.initial_history(history);
+    const std::vector<double> expected = evaluate(one, mean, history).f, given = evaluate(parted, state, history).f;
+    std::vector<double> summed(expected.size(), 0.0);
+    for (std::size_t i = 0; i < given.size(); ++i) summed[2 * original(i / 2) + i % 2] += given[i];
+    const double largest = std::abs(*std::ranges::max_element(expected, {}, [](double f) { return std::abs(f); }));
+    ASSERT_GT(largest, 1e4);
+    constexpr double round_off = 1e-10;  // of depths of 1 mm at places of 1 m
+    for (std::size_t i = 0; i < summed.size(); ++i) EXPECT_NEAR(summed[i], expected[i], round_off * largest) << i;
+    EXPECT_NEAR(stored(parted, state, history), stored(one, mean, history), round_off * stored(one, mean, history));
+}
+
+TEST_P(Bonded, Tangent_IsThatOfDifferences) {
+    Contact::Options elastic = rough();
+    elastic.restitution = 1;  // otherwise the force has a kink where it is now
+    const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, elastic);
+    std::vector<double> history(contact.n_history());
+    contact.initial_history(history);
+    history = evaluate(contact, state, history).history;
+    const auto couplings = contact.couplings();
+    std::vector<ForceTerm::Stiffness> blocks(couplings.size());
+    contact.stiffness(Trial::of(state), history, blocks);
+    const std::size_t n = state.u.size();
+    std::vector<double> along(n), predicted(n, 0.0);
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (double& value : along) value = uniform(random);
+    for (std::size_t k = 0; k < couplings.size(); ++k) {
+        const auto a = 2 * static_cast<std::size_t>(couplings[k][0]), b = 2 * static_cast<std::size_t>(couplings[k][1]);
+        predicted[a] += blocks[k].xx * along[b] + blocks[k].xy * along[b + 1];
+        predicted[a + 1] += blocks[k].yx * along[b] + blocks[k].yy * along[b + 1];
+    }
+    constexpr double way =
+        1e-7;  // small against depths of 1 mm, so that curvature is; round-off then is 1e-9 of the force
+    State more = state, less = state;
+    for (std::size_t i = 0; i < n; ++i) {
+        more.u[i] += way * along[i];
+        less.u[i] -= way * along[i];
+    }
+    const std::vector<double> f_more = evaluate(contact, more, history).f, f_less = evaluate(contact, less, history).f;
+    const double largest = std::abs(*std::ranges::max_element(predicted, {}, [](double f) { return std::abs(f); }));
+    ASSERT_GT(largest, 1e6);
+    for (std::size_t i = 0; i < n; ++i)
+        EXPECT_NEAR((f_more[i] - f_less[i]) / (2 * way), predicted[i], 1e-5 * largest) << i;
+}
+
+TEST_P(Bonded, WhatOverlapsAsItFails_IsNotPushedApart) {
+    Contact::Options options = rough();
+    options.comes_apart = true;
+    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, options);
+    std::vector<double> history(contact.n_history());
+    contact.initial_history(history);
+    history = evaluate(contact, state, history).history;
+    const double before = stored(contact, state, history);
+    ASSERT_GT(before, 0);
+    PathEnergies energies;
+    contact.follow({mesh, {}, {}, {}, all}, state, history, energies);
+    const double after = stored(contact, state, history);
+    EXPECT_DOUBLE_EQ(energies.splitting, after - before);
+    EXPECT_LE(after, before) << "coming apart gives no energy";
+    ASSERT_GT(contact.overlaps(state.u, 1e-5).size(), 20u) << "the joints had closed";
+
+    // nothing moves: nothing changes; what then presses further stores energy from there on
+    history = evaluate(contact, state, history).history;
+    EXPECT_NEAR(stored(contact, state, history), after, 1e-9 * before);
+    State closer = state;
+    for (std::size_t node = 0; node < mesh.n_nodes(); ++node)
+        if (sides.original_of()[node] >= n_lower) closer.u[2 * node + 1] -= 1e-4;
+    EXPECT_GT(stored(contact, closer, history), after);
+}
+
+TEST_P(Bonded, SideThatStandsAlone_ComesApartWithItsNeighbour) {
+    const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
+    const ContactBodies& bodies = contact.bodies();
+    EXPECT_EQ(bodies.come_apart(all), all);
+    const auto at = [&](double x, double y) {
+        return [this, x, y](const InnerSide& side) {
+            const auto local = side_nodes(whole.kind, side.left.side);
+            const std::int32_t* nodes = whole.element(static_cast<std::size_t>(side.left.element));
+            return std::ranges::any_of(local, [&](int k) {
+                const auto& place = whole.nodes[static_cast<std::size_t>(nodes[k])];
+                return std::hypot(place[0] - x, place[1] - y) < 1e-12;
+            });
+        };
+    };
+    // around the node in the middle of the upper body
+    std::vector<std::int32_t> around;
+    for (const std::int32_t side : all)
+        if (at(1.03, 1.498)(sides.sides()[static_cast<std::size_t>(side)])) around.push_back(side);
+    ASSERT_GE(around.size(), 4u);
+    const std::vector<std::int32_t> alone{around[0]}, two{around[0], around[2]};
+    EXPECT_EQ(bodies.come_apart(alone), GetParam() ? alone : std::vector<std::int32_t>{});
+    EXPECT_EQ(bodies.come_apart(two), two);
 }
 
 }  // namespace

@@ -96,6 +96,23 @@ TEST(ContactPath, ThereAndBack_FollowsCoulombBothWays) {
     EXPECT_NEAR(rest.force.x, 0.5 * limit, round_off * limit);
 }
 
+TEST(ContactPath, RestDepth_GoesDownWithTheOverlap_AndHoldsNoEnergy) {
+    Strip strip(1);
+    strip.history.in_touch = 1;
+    strip.history.rest = 0.2;
+    const double k = law.normal_stiffness;
+    const auto force_at = [&](double depth) { return strip.go_to({0.3, -depth}).force.y; };
+    EXPECT_NEAR(force_at(0.2), 0, round_off * k);
+    EXPECT_NEAR(force_at(0.3), k * 0.1, round_off * k);
+    EXPECT_NEAR(strip.history.rest, 0.2, round_off) << "pressing does not move it";
+    const Response loose = strip.go_to({0.3, -0.12});
+    EXPECT_EQ(loose.force.y, 0);
+    EXPECT_EQ(loose.stored_normal, 0);
+    EXPECT_NEAR(strip.history.rest, 0.12, round_off);
+    EXPECT_NEAR(force_at(0.2), k * 0.08, round_off * k);
+    EXPECT_NEAR(strip.go_to({0.3, -0.2}).stored_normal, 0.5 * k * 0.08 * 0.08, round_off * k);
+}
+
 TEST(ContactPath, StepsOfAStraightPath_DoNotChangeTheDissipation) {
     // Depth and way grow together: stick, slide, and less depth again while sliding, in any number of steps.
     for (const V2& end : {V2{0.9, -0.4}, V2{0.9, -0.02}, V2{0.48, -0.11}}) {

@@ -218,10 +218,11 @@ TEST_P(ContactOf, OverlappingStart_IsBadInput) {
     }
 }
 
-TEST(ContactAlone, OneBody_NoPairs) {
+TEST(ContactAlone, OneBody_DoesNotTouchItself) {
     const Contact* contact = nullptr;
     const test::Solid solid = test::touching_solid(test::rectangle(true, 2, 1, {4, 2}), {.skin = 0.5}, {}, &contact);
-    EXPECT_LE(contact->n_candidates(), 0u) << "pairs joined by an unbroken edge never enter the list";
+    const std::vector<double> at_rest(2 * contact->bodies().n_mesh_nodes(), 0.0);
+    EXPECT_TRUE(contact->overlaps(at_rest, 0).empty());
 }
 
 }  // namespace

@@ -13,14 +13,13 @@
 
 namespace gneiss::test {
 
-/// Triangles, contactor points and what is joined, with the storage that a search refers to.
+/// Triangles and contactor points, with the storage that a search refers to.
 struct Soup {
     std::vector<double> x;  ///< m, shape (2 n_nodes)
     std::vector<std::array<std::int32_t, 3>> triangles;
     ContactorPoints points;
-    std::vector<std::int32_t> joined;
 
-    ContactSurroundings surroundings() const { return {x, triangles, &points, joined}; }
+    ContactSurroundings surroundings() const { return {x, triangles, &points}; }
 };
 
 /// A triangle of about the given size around a centre; its nodes are its own.
@@ -33,7 +32,6 @@ void add_triangle(Soup& soup, double cx, double cy, double size, Random& random)
         const double angle = turn + wobble(random) + 2 * std::numbers::pi * i / 3;
         soup.x.push_back(cx + 0.5 * size * std::cos(angle));
         soup.x.push_back(cy + 0.5 * size * std::sin(angle));
-        soup.joined.push_back(first + i);
     }
     soup.triangles.push_back({first, first + 1, first + 2});
     for (std::int32_t i = 0; i < 3; ++i) {

@@ -20,7 +20,7 @@ test::Solid walled(const ContactOptions& contact, const std::vector<WallOptions>
     test::distort(mesh, 0.12, 0.2, 5);
     const Mesh copy = mesh;
     return test::make_solid(std::move(mesh), what, [&](SolidSystem::Parts& parts) {
-        auto bodies = make_contact({copy}, parts.blocks, what.solid, contact);
+        auto bodies = make_contact({copy}, parts.blocks, what.solid, contact, false);
         auto made = make_walls(*bodies, walls, contact.friction);
         parts.interactions.push_back(std::move(bodies));
         parts.interactions.push_back(std::move(made));
@@ -92,7 +92,7 @@ TEST(Walls, WallIsAMirror) {
         test::touching_solid(test::together(Mesh(left), test::moved(Mesh(left), 1 + 1e-9, 0)), contact, what);
     const Mesh copy = left;
     const test::Solid single = test::make_solid(std::move(left), what, [&](SolidSystem::Parts& parts) {
-        auto bodies = make_contact({copy}, parts.blocks, what.solid, contact);
+        auto bodies = make_contact({copy}, parts.blocks, what.solid, contact, false);
         auto made =
             make_walls(*bodies, {{.point = {1 + 0.5e-9, 0}, .normal = {-1, 0}, .velocity = {0, 0}, .friction = {}}}, 0);
         parts.interactions.push_back(std::move(bodies));
