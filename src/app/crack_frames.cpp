@@ -13,6 +13,12 @@ Fragments find_fragments(const Cracking& cracking, const State& state) {
         cracking.elements(), state);
 }
 
+std::size_t count_fragments(const Cracking& cracking, const State& state) {
+    const std::vector<bool> broken = cracking.broken_sides(state);
+    return count_fragments(cracking.mesh().n_elements(), cracking.inner(),
+                           [&](std::int32_t side) { return broken[static_cast<std::size_t>(side)]; });
+}
+
 CrackFrames::CrackFrames(const std::filesystem::path& folder, const Cracking& cracking,
                          std::optional<double> restart_time)
     : cracking_(cracking),

@@ -13,6 +13,7 @@ namespace gneiss {
 
 /// Fragments of a solid as its cracks have left it.
 Fragments find_fragments(const Cracking& cracking, const State& state);
+std::size_t count_fragments(const Cracking& cracking, const State& state);
 
 /// Edges that have begun to soften, as lines in the reference shape: displacement of their middle line, and of each
 /// damage (0 to 1, of its less damaged end), opening and slip (m, means), mode (1 opening, 0 sliding, where it failed
