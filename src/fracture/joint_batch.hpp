@@ -300,8 +300,9 @@ void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> histor
         tractions[i].normal *= w;
         tractions[i].shear *= w;
         if (updated.empty()) continue;
-        History after = Law::advance(law, before, motion.opening[i], motion.slip[i]);
-        if constexpr (extrinsic) after = choose_history(w > Pack(0.0), after, before);
+        // where no traction acts, nothing is dissipated either
+        const History after =
+            choose_history(w > Pack(0.0), Law::advance(law, before, motion.opening[i], motion.slip[i]), before);
         for (std::size_t k = 0; k < n_members; ++k) store(after.*History::members[k], updated, pack, member_row(i, k));
         damage = xsimd::min(damage, after.damage);
         const Pack opening = positive_part(motion.opening[i]);

@@ -206,6 +206,20 @@ TEST_F(CracksOfSquare, Extrinsic_HaveTheStrengthAtWhichTheyOpened) {
     }
 }
 
+TEST_F(CracksOfSquare, GoneOverToContact_DissipateNoMore) {
+    CaseOptions rubbing = options(FractureOptions::Method::intrinsic);
+    rubbing.materials[0].strength->friction = rubbing.materials[0].strength->residual_friction = {0.5, 0.5};
+    rubbing.contact.method = ContactOptions::Method::potential;
+    built = build_case(rubbing);
+    const State rest = built.system->initial_state();
+    State apart = accepted(rest, right_half_moved(rest.u, 1e-2, 0));
+    ASSERT_NE(built.cracking->look(apart), EventOutcome::none) << "handed over";
+    const State pressed = accepted(apart, right_half_moved(rest.u, -1e-4, 0));
+    write(accepted(pressed, right_half_moved(rest.u, -1e-4, 1e-2)));
+    expect_all(of_edges("dissipated_friction"), 0, 0);
+    expect_all(of_ends("end_dissipated_fracture_i"), energy_i, round_off * energy_i);
+}
+
 TEST_F(CracksOfSquare, YCode_TellsItsEnergiesByMode) {
     intrinsic(1e-2, 0, options(FractureOptions::Method::y_code));
     const double rise = 2.0 / 3 * tensile * (2 * tensile / penalty);
