@@ -13,6 +13,12 @@ Fragments find_fragments(const Cracking& cracking, const State& state) {
         cracking.elements(), state);
 }
 
+std::size_t count_fragments(const Cracking& cracking, const State& state) {
+    const std::vector<bool> broken = cracking.broken_sides(state);
+    return count_fragments(cracking.mesh().n_elements(), cracking.inner(),
+                           [&](std::int32_t side) { return broken[static_cast<std::size_t>(side)]; });
+}
+
 CrackFrames::CrackFrames(const std::filesystem::path& folder, const Cracking& cracking,
                          std::optional<double> restart_time)
     : cracking_(cracking),
@@ -32,8 +38,9 @@ void CrackFrames::write(const State& state, std::size_t step) {
     std::vector<std::array<double, 2>> points;
     std::vector<std::array<std::int32_t, 2>> lines;
     std::vector<std::int32_t> sides;
-    std::vector<double> displacement, end_damage, end_opening, end_slip, end_fracture;
-    std::vector<double> damage, opening, slip, mode, fracture, friction, failed_at;
+    std::vector<double> displacement, end_damage, end_opening, end_slip, end_fracture_i, end_fracture_ii;
+    std::vector<double> end_tensile_strength, end_cohesion;
+    std::vector<double> damage, opening, slip, mode, fracture, friction, failed_at, energy_i, energy_ii, penalty;
     const auto& nodes = cracking_.mesh().nodes;
     const auto history = cracking_.history(state);
     const auto mean = [](const std::array<double, 2>& ends) { return 0.5 * (ends[0] + ends[1]); };
@@ -49,16 +56,22 @@ void CrackFrames::write(const State& state, std::size_t step) {
             end_damage.push_back(edge.damage[end]);
             end_opening.push_back(edge.opening[end]);
             end_slip.push_back(edge.slip[end]);
-            end_fracture.push_back(edge.fracture[end]);
+            end_fracture_i.push_back(edge.fracture_i[end]);
+            end_fracture_ii.push_back(edge.fracture_ii[end]);
+            end_tensile_strength.push_back(edge.properties[end].tensile_strength);
+            end_cohesion.push_back(edge.properties[end].cohesion);
         }
         sides.push_back(edge.side);
         damage.push_back(std::min(edge.damage[0], edge.damage[1]));
         opening.push_back(mean(edge.opening));
         slip.push_back(mean(edge.slip));
         mode.push_back(edge.mode);
-        fracture.push_back(mean(edge.fracture));
+        fracture.push_back(mean(edge.fracture_i) + mean(edge.fracture_ii));
         friction.push_back(mean(edge.friction));
         failed_at.push_back(edge.failed_at > 0 ? edge.failed_at : std::numeric_limits<double>::quiet_NaN());
+        energy_i.push_back(edge.properties[0].fracture_energy_i);
+        energy_ii.push_back(edge.properties[0].fracture_energy_ii);
+        penalty.push_back(edge.properties[0].penalty);
     }
     FieldMesh mesh;
     mesh.points = points;
@@ -70,14 +83,20 @@ void CrackFrames::write(const State& state, std::size_t step) {
                     {"end_damage", end_damage},
                     {"end_opening", end_opening},
                     {"end_slip", end_slip},
-                    {"end_dissipated_fracture", end_fracture}},
+                    {"end_dissipated_fracture_i", end_fracture_i},
+                    {"end_dissipated_fracture_ii", end_fracture_ii},
+                    {"end_tensile_strength", end_tensile_strength},
+                    {"end_cohesion", end_cohesion}},
                    {{"damage", damage},
                     {"opening", opening},
                     {"slip", slip},
                     {"mode", mode},
                     {"dissipated_fracture", fracture},
                     {"dissipated_friction", friction},
-                    {"time_of_failure", failed_at}}});
+                    {"time_of_failure", failed_at},
+                    {"fracture_energy_i", energy_i},
+                    {"fracture_energy_ii", energy_ii},
+                    {"penalty", penalty}}});
 
     if (fragments_.last_time() == state.t) return;
     const Fragments fragments = find_fragments(cracking_, state);

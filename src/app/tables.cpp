@@ -25,7 +25,7 @@ std::vector<CsvColumn> history_columns(bool cracks) {
 
 void add_crack_columns(const Cracking& cracking, const State& state, std::vector<double>& row) {
     row.push_back(cracking.joints().cracked_length(cracking.history(state)));
-    row.push_back(static_cast<double>(find_fragments(cracking, state).all.size()));
+    row.push_back(static_cast<double>(count_fragments(cracking, state)));
     row.push_back(static_cast<double>(cracking.mesh().n_nodes()));
 }
 

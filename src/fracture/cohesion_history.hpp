@@ -20,14 +20,19 @@ struct CohesionHistory {
     T slider = T(0.0);          ///< where the spring of friction is without load, m
     T opening_offset = T(0.0);  ///< o* - o, m
     T slip_offset = T(0.0);     ///< s* - s, m
-    T fracture = T(0.0);        ///< dissipated by fracture so far, J/m2
+    T fracture_i = T(0.0);      ///< dissipated by fracture so far, J/m2, in opening
+    T fracture_ii = T(0.0);     ///< the same in sliding
     T friction = T(0.0);        ///< dissipated by friction so far, J/m2
 
     /// For loops over all entries: blocks store one array per entry, or one array of them.
-    static constexpr std::array<T CohesionHistory::*, 9> members{
+    static constexpr std::array<T CohesionHistory::*, 10> members{
         &CohesionHistory::damage,      &CohesionHistory::lambda_max, &CohesionHistory::opening,
         &CohesionHistory::slip,        &CohesionHistory::slider,     &CohesionHistory::opening_offset,
-        &CohesionHistory::slip_offset, &CohesionHistory::fracture,   &CohesionHistory::friction};
+        &CohesionHistory::slip_offset, &CohesionHistory::fracture_i, &CohesionHistory::fracture_ii,
+        &CohesionHistory::friction};
+
+    /// Dissipated by fracture so far, J/m2.
+    T fracture() const { return fracture_i + fracture_ii; }
 };
 
 /// a where the condition holds, else b: entry by entry.

@@ -15,6 +15,8 @@
 //
 //   dissipated = A/2 [2 (I(D1) - I(D0))/q - (lambda_1 z_1 - lambda_0 z_0)]
 //
+// The first term of A is what opening loses, work of t_n less what its spring stores, the second what sliding loses.
+//
 // Intrinsic joints are elastic with k, in shear too, until |t_s| = c_0 + tan phi_i <-t_n> (or the ellipse, in
 // tension). There shear is parted into friction at its limit, tau_f, and the cohesive rest. Two springs that carry
 // tau_f and c_0 hold less energy than one that carries both, by tau_f c_0/k: friction at its limit over the slip
@@ -87,13 +89,15 @@ struct MixedModeLaw {
         after.slip = slip;
         after.slider = step.friction.slider;
         after.slip_offset = step.slip_offset;
-        after.fracture += fracture_dissipation(T(accepted.damage), step);
+        const T lost = fracture_dissipation(T(accepted.damage), step);
+        after.fracture_i += step.elastic_i * lost;
+        after.fracture_ii += step.elastic_ii * lost;
         after.friction += step.parting_loss + step.friction.dissipated;
         return choose_history(intact, before, after);
     }
 
     /// Stored at (o, s), J/m2: cohesive spring, compression, spring of friction. With work since the point came into
-    /// being: work = stored - stored at the start + history.fracture + history.friction.
+    /// being: work = stored - stored at the start + history.fracture() + history.friction.
     /// @param history  of that state: what `advance` returned for it
     template <class T>
     static T stored_energy(const CohesionProperties<T>& p, const CohesionHistory<T>& history, const T& opening,
@@ -118,7 +122,8 @@ private:
         T slip_offset;                // s* - s
         T lambda_before, lambda_max;  // largest lambda, at the start and at the end
         T damage;                     // at the end
-        T q, elastic_area;            // means over the growth of D: dD/d lambda; A, J/m2
+        T q;                          // mean of dD/d lambda over the growth of D
+        T elastic_i, elastic_ii;      // means of the two terms of A, J/m2
         T parting_loss;               // J/m2
         SliderStep<T> friction;
     };
@@ -186,8 +191,9 @@ private:
         const T mix1 = (x * inverse) * (x * inverse);
         const V b_i = elastic_ratio_i(p), b_ii = elastic_ratio_ii(p);
         step.q = 0.5 * (rate(b_i, b_ii, mix0) + rate(b_i, b_ii, mix1));
-        const V area_i = p.tensile_strength / per_opening, area_ii = p.cohesion / per_slip;
-        step.elastic_area = T(area_ii) + (area_i - area_ii) * (0.5 * (mix0 + mix1));
+        const T mix = 0.5 * (mix0 + mix1);
+        step.elastic_i = (p.tensile_strength / per_opening) * mix;
+        step.elastic_ii = (p.cohesion / per_slip) * (T(1.0) - mix);
 
         const T grown = T(accepted.damage) + step.q * (lambda - step.lambda_before);
         step.damage = choose(grows, choose(plain(grown) < 1.0, grown, T(1.0)), T(accepted.damage));
@@ -207,14 +213,14 @@ private:
         return softening_integral * b / (T(1.0) - 0.5 * b);
     }
 
+    /// In units of A.
     template <class T>
     static T fracture_dissipation(const T& damage_before, const Step<T>& step) {
         const auto grows = plain(step.lambda_max) > plain(step.lambda_before);
         if (!any_lane(grows)) return T(0.0);
         const Softening<T> z0 = softening_and_integral(damage_before), z1 = softening_and_integral(step.damage);
         const T dissipated =
-            0.5 * step.elastic_area *
-            (2.0 * (z1.integral - z0.integral) / step.q - (step.lambda_max * z1.value - step.lambda_before * z0.value));
+            (z1.integral - z0.integral) / step.q - 0.5 * (step.lambda_max * z1.value - step.lambda_before * z0.value);
         return choose(grows, dissipated, T(0.0));
     }
 };

@@ -3,11 +3,13 @@
 #include <numeric>
 
 namespace gneiss {
+namespace {
 
-Fragments find_fragments(const Mesh& mesh, const InnerSides& inner, const std::function<bool(std::int32_t)>& broken,
-                         const ElementForces& elements, const State& state) {
+/// The first element of each element's fragment.
+std::vector<std::int32_t> first_elements(std::size_t n_elements, const InnerSides& inner,
+                                         const std::function<bool(std::int32_t)>& broken) {
     // every element points to one of a lower number, up to the first of its fragment, which points to itself
-    std::vector<std::int32_t> first(mesh.n_elements());
+    std::vector<std::int32_t> first(n_elements);
     std::iota(first.begin(), first.end(), 0);
     const auto find = [&](std::int32_t e) {
         while (first[static_cast<std::size_t>(e)] != e) {
@@ -21,18 +23,33 @@ Fragments find_fragments(const Mesh& mesh, const InnerSides& inner, const std::f
         const std::int32_t a = find(inner.sides()[s].left.element), b = find(inner.sides()[s].right.element);
         first[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
+    for (std::int32_t& element : first) element = find(element);
+    return first;
+}
 
+}  // namespace
+
+std::size_t count_fragments(std::size_t n_elements, const InnerSides& inner,
+                            const std::function<bool(std::int32_t)>& broken) {
+    const std::vector<std::int32_t> first = first_elements(n_elements, inner, broken);
+    std::size_t n = 0;
+    for (std::size_t e = 0; e < n_elements; ++e) n += first[e] == static_cast<std::int32_t>(e) ? 1 : 0;
+    return n;
+}
+
+Fragments find_fragments(const Mesh& mesh, const InnerSides& inner, const std::function<bool(std::int32_t)>& broken,
+                         const ElementForces& elements, const State& state) {
+    const std::vector<std::int32_t> first = first_elements(mesh.n_elements(), inner, broken);
     Fragments result;
     result.of_element.resize(mesh.n_elements());
     std::vector<double> mass(2 * mesh.n_nodes(), 0.0);  // of one element at a time
     const auto n = static_cast<std::size_t>(mesh.nodes_per_element());
     for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
-        const std::int32_t root = find(static_cast<std::int32_t>(e));
-        if (root == static_cast<std::int32_t>(e)) {
+        if (first[e] == static_cast<std::int32_t>(e)) {
             result.of_element[e] = static_cast<std::int32_t>(result.all.size());
             result.all.emplace_back();
         } else {
-            result.of_element[e] = result.of_element[static_cast<std::size_t>(root)];
+            result.of_element[e] = result.of_element[static_cast<std::size_t>(first[e])];
         }
         Fragment& fragment = result.all[static_cast<std::size_t>(result.of_element[e])];
         ++fragment.n_elements;

@@ -27,4 +27,8 @@ struct Fragments {
 Fragments find_fragments(const Mesh& mesh, const InnerSides& inner, const std::function<bool(std::int32_t)>& broken,
                          const ElementForces& elements, const State& state);
 
+/// How many there are: without their masses, for every row of a history.
+std::size_t count_fragments(std::size_t n_elements, const InnerSides& inner,
+                            const std::function<bool(std::int32_t)>& broken);
+
 }  // namespace gneiss

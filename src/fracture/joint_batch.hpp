@@ -16,6 +16,7 @@
 #include "base/parallel.hpp"
 #include "fracture/cohesion_law.hpp"
 #include "fracture/envelope.hpp"
+#include "fracture/interface_strength.hpp"
 #include "fracture/joint_kernel.hpp"
 #include "fracture/joints.hpp"
 
@@ -117,6 +118,8 @@ private:
         const std::size_t x = 2 * (joint / pack_width) * pack_width + joint % pack_width;
         return std::hypot(edges_[x], edges_[x + pack_width]);
     }
+    /// Properties of a joint, without what an end is stronger than them.
+    CohesionProperties<double> given(std::size_t joint) const;
     CohesionProperties<Pack> of(std::span<const double> history, std::size_t pack, std::size_t point) const {
         CohesionProperties<Pack> p;
         for (std::size_t i = 0; i < n_properties; ++i)
@@ -297,8 +300,9 @@ void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> histor
         tractions[i].normal *= w;
         tractions[i].shear *= w;
         if (updated.empty()) continue;
-        History after = Law::advance(law, before, motion.opening[i], motion.slip[i]);
-        if constexpr (extrinsic) after = choose_history(w > Pack(0.0), after, before);
+        // where no traction acts, nothing is dissipated either
+        const History after =
+            choose_history(w > Pack(0.0), Law::advance(law, before, motion.opening[i], motion.slip[i]), before);
         for (std::size_t k = 0; k < n_members; ++k) store(after.*History::members[k], updated, pack, member_row(i, k));
         damage = xsimd::min(damage, after.damage);
         const Pack opening = positive_part(motion.opening[i]);
@@ -451,21 +455,21 @@ void JointBatch<Law, extrinsic>::add_stored(const Trial& accepted, std::span<con
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::add_dissipated(std::span<const double> from, std::span<const double> to,
                                                 PathEnergies& energies) const {
-    const auto sum_of = [&](Pack History::*member) {
+    const auto sum_of = [&](auto dissipated) {
         return ordered_sum(n_packs(), partial_, [&](std::size_t first, std::size_t last) {
             Pack sum(0.0);
             for (std::size_t pack = first; pack < last; ++pack) {
                 if (untouched(to, pack)) continue;
                 for (std::size_t i = 0; i < joint_points; ++i) {
                     const History before = history_of(from, pack, i);
-                    sum += weight(from, pack, before) * (history_of(to, pack, i).*member - before.*member);
+                    sum += weight(from, pack, before) * (dissipated(history_of(to, pack, i)) - dissipated(before));
                 }
             }
             return xsimd::hadd(sum);
         });
     };
-    energies.fracture += sum_of(&History::fracture);
-    energies.friction += sum_of(&History::friction);
+    energies.fracture += sum_of([](const History& at) { return at.fracture(); });
+    energies.friction += sum_of([](const History& at) { return at.friction; });
 }
 
 }  // namespace gneiss

@@ -57,6 +57,15 @@ JointMotion<double> JointBatch<Law, extrinsic>::motion_of(std::size_t joint, std
 }
 
 template <class Law, bool extrinsic>
+CohesionProperties<double> JointBatch<Law, extrinsic>::given(std::size_t joint) const {
+    const std::size_t first = n_properties * (joint / pack_width) * pack_width + joint % pack_width;
+    CohesionProperties<double> p{};
+    for (std::size_t i = 0; i < n_properties; ++i)
+        p.*CohesionProperties<double>::members[i] = properties_[first + i * pack_width];
+    return p;
+}
+
+template <class Law, bool extrinsic>
 JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& state,
                                                 std::span<const double> history) const {
     JointState result{};
@@ -68,12 +77,17 @@ JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& 
     for (std::size_t k = 0; k < joint_nodes; ++k) result.nodes[k] = node(joint, k);
     result.side = sides_[joint];
     result.length = length(joint);
+    result.properties.fill(given(joint));
+    if constexpr (extrinsic)
+        for (std::size_t i = 0; i < joint_points; ++i)
+            result.properties[i] = scaled_strength(result.properties[i], history[entry(joint, factor_row + i)]);
     double apart = 0, both = 0;
     for (std::size_t i = 0; i < joint_points; ++i) {
         result.opening[i] = motion.opening[i];
         result.slip[i] = motion.slip[i];
         result.damage[i] = member(&History::damage, i);
-        result.fracture[i] = member(&History::fracture, i);
+        result.fracture_i[i] = member(&History::fracture_i, i);
+        result.fracture_ii[i] = member(&History::fracture_ii, i);
         result.friction[i] = member(&History::friction, i);
         const double open = std::max(0.0, motion.opening[i]);
         apart += open * open;
@@ -164,11 +178,7 @@ template <class Law, bool extrinsic>
 double JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, double shear,
                                         std::span<double> history) const {
     if constexpr (extrinsic) {
-        CohesionProperties<double> p;
-        const std::size_t pack = end.joint / pack_width, lane = end.joint % pack_width;
-        for (std::size_t i = 0; i < n_properties; ++i)
-            p.*CohesionProperties<double>::members[i] = properties_[(n_properties * pack + i) * pack_width + lane];
-        const InsertedPoint<double> point = insert_point(p, normal, shear);
+        const InsertedPoint<double> point = insert_point(given(end.joint), normal, shear);
         for (std::size_t k = 0; k < n_members; ++k)
             history[entry(end.joint, member_row(end.end, k))] = point.history.*CohesionHistory<double>::members[k];
         history[entry(end.joint, factor_row + end.end)] = point.strength_factor;

@@ -40,12 +40,15 @@ enum class JointLaw {
 
 /// A joint as output shows it. Two values: of its two ends.
 struct JointState {
-    std::array<std::int32_t, 4> nodes;         ///< as in Joint
-    std::int32_t side;                         ///< number of the inner side
-    double length;                             ///< in the reference shape, m
-    std::array<double, 2> opening, slip;       ///< m
-    std::array<double, 2> damage;              ///< D, 0 to 1
-    std::array<double, 2> fracture, friction;  ///< dissipated so far, J/m2
+    std::array<std::int32_t, 4> nodes;  ///< as in Joint
+    std::int32_t side;                  ///< number of the inner side
+    double length;                      ///< in the reference shape, m
+    /// Of extrinsic ends with the strengths at which they were found to open.
+    std::array<CohesionProperties<double>, 2> properties;
+    std::array<double, 2> opening, slip;            ///< m
+    std::array<double, 2> damage;                   ///< D, 0 to 1
+    std::array<double, 2> fracture_i, fracture_ii;  ///< dissipated so far by fracture in opening, in sliding, J/m2
+    std::array<double, 2> friction;                 ///< dissipated so far by friction, J/m2
     double mode;       ///< 1 opening, 0 sliding: o^2/(o^2 + s^2) of both ends where it failed, or as it is now
     double failed_at;  ///< s; 0: it has not failed
 };

@@ -16,7 +16,8 @@
 // place of a shear strength that grows with pressure.
 //
 // With the stored energy w = z(D) W, W = f_t o_m (x^2 - x^3/3) + c_0 s_m (y^2 - y^3/3), x = <o>/o_m, y = |s|/s_m, a
-// step dissipates the integral of z (f_t do_m + c_0 ds_m)/3 - W dz. It is exact in pure modes for steps of any size.
+// step dissipates the integral of z (f_t do_m + c_0 ds_m)/3 - W dz, term by term in opening and in sliding. It is exact
+// in pure modes for steps of any size.
 
 #include <array>
 
@@ -35,12 +36,17 @@ struct YCodeHistory {
     T opening = T(0.0);      ///< o at the accepted state, m
     T slip = T(0.0);         ///< s at the accepted state, m
     T slider = T(0.0);       ///< where the spring of friction is without load, m
-    T fracture = T(0.0);     ///< dissipated by fracture so far, J/m2
+    T fracture_i = T(0.0);   ///< dissipated by fracture so far, J/m2, in opening
+    T fracture_ii = T(0.0);  ///< the same in sliding
     T friction = T(0.0);     ///< dissipated by friction so far, J/m2
 
-    static constexpr std::array<T YCodeHistory::*, 8> members{
-        &YCodeHistory::damage, &YCodeHistory::opening_max, &YCodeHistory::slip_max, &YCodeHistory::opening,
-        &YCodeHistory::slip,   &YCodeHistory::slider,      &YCodeHistory::fracture, &YCodeHistory::friction};
+    static constexpr std::array<T YCodeHistory::*, 9> members{
+        &YCodeHistory::damage,     &YCodeHistory::opening_max, &YCodeHistory::slip_max,
+        &YCodeHistory::opening,    &YCodeHistory::slip,        &YCodeHistory::slider,
+        &YCodeHistory::fracture_i, &YCodeHistory::fracture_ii, &YCodeHistory::friction};
+
+    /// Dissipated by fracture so far, J/m2.
+    T fracture() const { return fracture_i + fracture_ii; }
 };
 
 struct YCodeLaw {
@@ -74,7 +80,9 @@ struct YCodeLaw {
         after.slip = slip;
         after.slider = step.friction.slider;
         after.friction = T(accepted.friction) + step.friction.dissipated;
-        after.fracture = T(accepted.fracture) + fracture_dissipation(p, accepted, apart, along, step);
+        const Dissipation<T> lost = fracture_dissipation(p, accepted, apart, along, step);
+        after.fracture_i = T(accepted.fracture_i) + lost.opening;
+        after.fracture_ii = T(accepted.fracture_ii) + lost.sliding;
         return after;
     }
 
@@ -83,8 +91,9 @@ struct YCodeLaw {
     static T stored_energy(const CohesionProperties<T>& p, const YCodeHistory<T>& history, const T& opening,
                            const T& slip) {
         const T apart = positive_part(opening), closed = positive_part(T(-opening)), e = slip - history.slider;
-        const T cohesive = unit_energy(p, apart, T(magnitude(slip)), larger(opening_at_peak(p), history.opening_max),
-                                       larger(slip_at_peak(p), history.slip_max));
+        const T cohesive =
+            unit_energy(T(p.tensile_strength), apart, T(larger(opening_at_peak(p), history.opening_max))) +
+            unit_energy(T(p.cohesion), T(magnitude(slip)), T(larger(slip_at_peak(p), history.slip_max)));
         return softening_value(history.damage) * cohesive + 0.5 * p.penalty * (closed * closed + e * e);
     }
 
@@ -114,13 +123,11 @@ private:
     static T rise(const T& x) {
         return x * (T(2.0) - x);
     }
-    /// W
+    /// A term of W: of opening with f_t, o and o_m, of sliding with c_0, |s| and s_m.
     template <class T, class V>
-    static T unit_energy(const CohesionProperties<V>& p, const T& apart, const T& along, const T& opening_end,
-                         const T& slip_end) {
-        const T x = apart / opening_end, y = along / slip_end;
-        return p.tensile_strength * (opening_end * (x * x * (T(1.0) - x * (1.0 / 3)))) +
-               p.cohesion * (slip_end * (y * y * (T(1.0) - y * (1.0 / 3))));
+    static T unit_energy(const V& strength, const T& way, const T& end) {
+        const T x = way / end;
+        return strength * (end * (x * x * (T(1.0) - x * (1.0 / 3))));
     }
 
     template <class T, class V>
@@ -150,25 +157,34 @@ private:
         return step;
     }
 
+    template <class T>
+    struct Dissipation {
+        T opening, sliding;  // J/m2
+    };
+
     /// From where damage, o_m or s_m begin to grow in this step: with W0 there, dW to the end, and the mean zm of z
     /// over the growth of D,  zm [(f_t do_m + c_0 ds_m)/3 + dW] + z0 W0 - z1 W1, up to D = 1.
     template <class T, class V>
-    static T fracture_dissipation(const CohesionProperties<V>& p, const YCodeHistory<V>& accepted, const T& apart,
-                                  const T& along, const Step<T>& step) {
+    static Dissipation<T> fracture_dissipation(const CohesionProperties<V>& p, const YCodeHistory<V>& accepted,
+                                               const T& apart, const T& along, const Step<T>& step) {
         const V o_m = larger(opening_at_peak(p), accepted.opening_max);
         const V s_m = larger(slip_at_peak(p), accepted.slip_max);
         const T o_0 = choose(plain(apart) > o_m, T(o_m), T(positive_part(accepted.opening)));
         const T s_0 = choose(plain(along) > s_m, T(s_m), T(magnitude(accepted.slip)));
         const auto grows = plain(step.damage) > accepted.damage;
         const auto stretches = plain(step.opening_end) > o_m || plain(step.slip_end) > s_m;
-        if (!any_lane(grows || stretches)) return T(0.0);
-        const T energy0 = unit_energy(p, o_0, s_0, T(o_m), T(s_m));
-        const T energy1 = unit_energy(p, apart, along, step.opening_end, step.slip_end);
+        if (!any_lane(grows || stretches)) return {T(0.0), T(0.0)};
         const Softening<T> z0 = softening_and_integral(T(accepted.damage)), z1 = softening_and_integral(step.damage);
         const T growth = choose(grows, T(step.damage - T(accepted.damage)), T(1.0));
         const T mean = choose(grows, T((z1.integral - z0.integral) / growth), z0.value);
-        const T ends = p.tensile_strength * (step.opening_end - T(o_m)) + p.cohesion * (step.slip_end - T(s_m));
-        return mean * step.part * ((1.0 / 3) * ends + energy1 - energy0) + z0.value * energy0 - z1.value * energy1;
+        const auto lost = [&](const V& strength, const T& from, const T& to, const V& end0, const T& end1) {
+            const T energy0 = unit_energy(strength, from, T(end0)), energy1 = unit_energy(strength, to, end1);
+            const T stretched = strength * (end1 - T(end0));
+            return T(mean * step.part * ((1.0 / 3) * stretched + energy1 - energy0) + z0.value * energy0 -
+                     z1.value * energy1);
+        };
+        return {lost(p.tensile_strength, o_0, apart, o_m, step.opening_end),
+                lost(p.cohesion, s_0, along, s_m, step.slip_end)};
     }
 };
 

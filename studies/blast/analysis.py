@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.blast.cases import CAVITY, CONSTANTS, GPA, INTERFACES, PENALTY, RADIUS, THICKNESS, Case, height
-from studies.common.decks import Deck
+from studies.blast.cases import CAVITY, RADIUS, THICKNESS, Case
 from studies.common.fields import read_vtu
 from studies.common.results import Table
 from studies.fracture.law import SOFTENING_INTEGRAL, softening
@@ -19,20 +18,31 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Cracks:
-    """n edges that have begun to soften, of cracks_*.vtu; two columns: of their two ends."""
+    """n edges that have begun to soften, of cracks_*.vtu (docs/deck.md); two columns: of their two ends."""
 
     ends: Array             # (n, 2, 2) m, reference shape
     displacement: Array     # (n, 2, 2) m
     damage: Array           # (n, 2)
-    opening: Array          # (n, 2) m
-    slip: Array             # (n, 2) m
-    fracture: Array         # (n, 2) J/m2
+    fracture_i: Array       # (n, 2) J/m2, dissipated in opening
+    fracture_ii: Array      # (n, 2) J/m2, in sliding
+    tensile: Array          # (n, 2) Pa
+    cohesion: Array         # (n, 2) Pa
+    penalty: Array          # (n, 1) Pa/m
     mode: Array             # (n), o^2/(o^2 + s^2) where the edge failed, or as it is
     time_of_failure: Array  # (n) s, infinite where it has not failed
 
     @property
     def length(self) -> Array:
         return np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
+
+    @property
+    def fracture(self) -> Array:
+        return self.fracture_i + self.fracture_ii
+
+    @property
+    def area(self) -> Array:
+        """(n, 1) m2, that an end stands for."""
+        return 0.5 * THICKNESS * self.length[:, None]
 
     @property
     def middle(self) -> Array:
@@ -65,9 +75,10 @@ def read_cracks(path: Path) -> Cracks:
     of_point = {name: np.asarray(values, dtype=float)[pairs] for name, values in grid.point_data.items()}
     time = np.asarray(grid.cell_data["time_of_failure"], dtype=float).copy()
     time[~(time >= 0)] = np.inf
+    mode, penalty = (np.asarray(grid.cell_data[name], dtype=float) for name in ("mode", "penalty"))
     return Cracks(grid.points[pairs], of_point["displacement"][..., :2], of_point["end_damage"],
-                  of_point["end_opening"], of_point["end_slip"], of_point["end_dissipated_fracture"],
-                  np.nan_to_num(np.asarray(grid.cell_data["mode"], dtype=float)), time)
+                  of_point["end_dissipated_fracture_i"], of_point["end_dissipated_fracture_ii"],
+                  of_point["end_tensile_strength"], of_point["end_cohesion"], penalty[:, None], mode, time)
 
 
 def last_cracks(folder: Path) -> Cracks:
@@ -81,48 +92,47 @@ _INTEGRAL = np.concatenate([[0.0], np.cumsum(0.5 * (softening(_DAMAGE[1:]) + sof
                                              * np.diff(_DAMAGE))])
 
 
-def dissipation(damage: Array, omega: Array, penalty: Array, strength: Deck, extrinsic: bool) -> Array:
-    """J/m2 along a path of constant omega up to D, from FORMULATION 7 alone.
+def expected(case: Case, cracks: Cracks) -> Array:
+    """J/m2 that each end must have dissipated for its damage and its strengths, along a path of constant omega.
 
-    With A = omega f_t^2/k + (1 - omega) c_0^2/k and dD = q d lambda, d(dissipated) = (z d lambda - lambda dz) A/2 gives
-    A/2 [2 I(D)/q - (lambda z(D) - 1)], I the integral of z: at D = 1 just G, and G + A/2 where the energy of the offset
-    is lost as well (extrinsic).
+    FORMULATION 7 alone, with the deck's G_I and G_II. With A_I = omega f_t^2/k, A_II = (1 - omega) c_0^2/k, A their sum and
+    dD = q d lambda, d(dissipated) = (z d lambda - lambda dz) A/2 gives A/2 [2 I(D)/q - (lambda z(D) - 1)], I the integral of
+    z. At D = 1 that is 1/(m/G_I + (1 - m)/G_II), m = A_I/A the part lost in opening, and A/2 more where the energy of the
+    offset is lost as well (extrinsic). Of what the end has dissipated only the ratio of the modes enters, as m. A mode that
+    turns on the way is not in the closed form.
     """
-    a_i, a_ii = strength["tensile"] ** 2 / penalty, strength["cohesion"] ** 2 / penalty
-    area = omega * a_i + (1 - omega) * a_ii
-    ratio = omega * a_i / strength["G_I"] + (1 - omega) * a_ii / strength["G_II"]
-    rate = SOFTENING_INTEGRAL * ratio / (1.0 if extrinsic else 1 - ratio / 2)
-    return area / 2 * (2 * np.interp(damage, _DAMAGE, _INTEGRAL) / rate - ((1 + damage / rate) * softening(damage) - 1))
+    total = cracks.fracture
+    m = np.divide(cracks.fracture_i, total, out=np.ones_like(total), where=total > 0)
+    area = 1 / (m / (cracks.tensile**2 / cracks.penalty) + (1 - m) / (cracks.cohesion**2 / cracks.penalty))
+    ratio = area * (m / case.strength["G_I"] + (1 - m) / case.strength["G_II"])
+    rate = SOFTENING_INTEGRAL * ratio / (1.0 if case.method == "extrinsic" else 1 - ratio / 2)
+    D = cracks.damage
+    return area / 2 * (2 * np.interp(D, _DAMAGE, _INTEGRAL) / rate - ((1 + D / rate) * softening(D) - 1))
 
 
-def layer_of(points: Array) -> NDArray[np.int64]:
-    """0 to 3 from the top."""
-    heights = np.array([[height(k, x) for x in points[:, 0]] for k in range(len(INTERFACES))])
-    return np.sum(points[None, :, 1] < heights, axis=0) if len(points) else np.zeros(0, dtype=int)
+@dataclass(frozen=True)
+class Consistency:
+    """Differences are relative."""
+
+    all_ends: float   # sum of what all ends must have dissipated, against the ledger
+    failed: float     # the same of ends at D = 1, against what they have dissipated
+    softening: float  # of the others
+    by_end: float     # sum of the magnitudes of the differences of all ends, against the ledger
+    files: float      # what all ends have dissipated, against the ledger
+    excess: float     # strength of an end over the given one, less 1; mean weighted by dissipation
 
 
-def penalties(case: Case, cracks: Cracks) -> Array:
-    """k of every edge, Pa/m, with the mean of the P-wave moduli along and across the bedding: exact for the isotropic rock."""
-    moduli = np.array([M_v + 0.5 * (M_alpha + M_beta) for M_v, M_alpha, M_beta, _ in CONSTANTS[case.material]]) * GPA
-    return PENALTY * moduli[layer_of(cracks.middle)] / cracks.length
+def consistency(case: Case, cracks: Cracks, ledger: float) -> Consistency:
+    """@param ledger  J, dissipated by fracture"""
+    must, have = cracks.area * expected(case, cracks), cracks.area * cracks.fracture
+    failed = cracks.damage >= 1
 
+    def difference(which: NDArray[np.bool_]) -> float:
+        return float(must[which].sum() / have[which].sum() - 1) if np.any(which) else 0.0
 
-def expected_energy(case: Case, cracks: Cracks) -> Array:
-    """J of every edge: what both ends must have dissipated for their damage, in the edge's mode throughout."""
-    strength = case.strength
-    f, c = strength["tensile"], strength["cohesion"]
-    open_squared = np.maximum(cracks.opening, 0) ** 2
-    both = open_squared + cracks.slip ** 2
-    now = np.divide(open_squared, both, out=np.zeros_like(both), where=both > 0)
-    mode = np.where(cracks.failed[:, None], cracks.mode[:, None], now)
-    omega = mode * c**2 / (mode * c**2 + (1 - mode) * f**2)
-    ends = dissipation(cracks.damage, omega, penalties(case, cracks)[:, None], strength, case.method == "extrinsic")
-    return THICKNESS * cracks.length * ends.mean(axis=1)
-
-
-def written_energy(cracks: Cracks) -> Array:
-    """J of every edge, as the file has it."""
-    return THICKNESS * cracks.length * cracks.fracture.mean(axis=1)
+    return Consistency(float(must.sum() / ledger - 1), difference(failed), difference(~failed),
+                       float(np.abs(must - have).sum() / ledger), float(have.sum() / ledger - 1),
+                       float((have * cracks.tensile).sum() / have.sum() / case.strength["tensile"] - 1))
 
 
 # ---- orientation -----------------------------------------------------------------------------------------------------

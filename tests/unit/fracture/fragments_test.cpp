@@ -14,7 +14,9 @@ protected:
     State state = solid.system->initial_state();
 
     Fragments find(const std::function<bool(std::int32_t)>& broken) {
-        return find_fragments(solid.mesh, inner, broken, solid.system->elements(), state);
+        const Fragments found = find_fragments(solid.mesh, inner, broken, solid.system->elements(), state);
+        EXPECT_EQ(count_fragments(solid.mesh.n_elements(), inner, broken), found.all.size());
+        return found;
     }
     /// Whether a side lies on x = 0.5.
     bool on_the_cut(std::int32_t side) const {

@@ -36,8 +36,8 @@ TEST(YCodeLaw, CompleteFailure_DissipatesOneSixthMoreThanGAndTheRise) {
         LoadedPoint<YCodeLaw> tension, shear;
         tension.move_to(60e-6, 0, n);
         shear.move_to(0, 170e-6, n);
-        EXPECT_NEAR(tension.history.fracture, 3 * softening_integral * 50 + 2.0 / 3 * 3e6 * o_p, round_off * 50) << n;
-        EXPECT_NEAR(shear.history.fracture, 3 * softening_integral * 300 + 2.0 / 3 * 6e6 * s_p, round_off * 300) << n;
+        EXPECT_NEAR(tension.history.fracture(), 3 * softening_integral * 50 + 2.0 / 3 * 3e6 * o_p, round_off * 50) << n;
+        EXPECT_NEAR(shear.history.fracture(), 3 * softening_integral * 300 + 2.0 / 3 * 6e6 * s_p, round_off * 300) << n;
         EXPECT_EQ(tension.stored(), 0);
     }
 }
@@ -45,7 +45,7 @@ TEST(YCodeLaw, CompleteFailure_DissipatesOneSixthMoreThanGAndTheRise) {
 TEST(YCodeLaw, ClosedAndOpenedAgain_HasNotHealed) {
     LoadedPoint<YCodeLaw> joint;
     joint.move_to(20e-6, 0, 5);
-    const double traction = joint.traction().normal, fracture = joint.history.fracture;
+    const double traction = joint.traction().normal, fracture = joint.history.fracture();
     ASSERT_LT(traction, 2e6);
     joint.move_to(0, 0);
     EXPECT_EQ(joint.traction().normal, 0);
@@ -53,7 +53,7 @@ TEST(YCodeLaw, ClosedAndOpenedAgain_HasNotHealed) {
     EXPECT_NEAR(joint.traction().normal, 0.75 * traction, round_off * traction);  // g(1/2)
     joint.move_to(20e-6, 0);
     EXPECT_NEAR(joint.traction().normal, traction, round_off * traction);
-    EXPECT_NEAR(joint.history.fracture, fracture, round_off * fracture);
+    EXPECT_NEAR(joint.history.fracture(), fracture, round_off * fracture);
 }
 
 TEST(YCodeLaw, OpeningAndSlip_BehindTheirPeaks_ShareOneDamage) {
