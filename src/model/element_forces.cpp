@@ -109,6 +109,7 @@ void ElementForces::plan() {
         chunk.first_shared = static_cast<std::size_t>(first_shared - begin);
         for (auto node = first; node != last; ++node)
             local[static_cast<std::size_t>(*node)] = static_cast<std::int32_t>((node - first) * bytes_per_pair);
+        chunk.in_a_row = first_shared == last && *(last - 1) - *first + 1 == last - first;
         const auto [nodes, local_nodes] = nodes_of(chunk);
         for (std::size_t i = 0; i < nodes.size(); ++i)
             local_nodes[i].value = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
@@ -184,8 +185,16 @@ void ElementForces::for_each_chunk(Body body) const {
     }
 }
 
-void ElementForces::force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
-                          std::span<double> history) const {
+std::vector<std::int32_t> ElementForces::chunk_of_node() const {
+    std::vector<std::int32_t> chunk_of(n_nodes_, -1);
+    for (std::size_t c = 0; c < chunks_.size(); ++c)
+        for (std::size_t i = chunks_[c].first_node; i < chunks_[c].first_shared; ++i)
+            chunk_of[static_cast<std::size_t>(chunk_nodes_[i])] = static_cast<std::int32_t>(c);
+    return chunk_of;
+}
+
+void ElementForces::force(const State& accepted, const Trial& trial, const Interactions& interactions,
+                          std::span<double> f, std::span<double> z, std::span<double> history) const {
     const auto evaluation_of = [&](std::size_t block) {
         ElementBlock::Evaluation at = evaluation(block, accepted, trial);
         if (!z.empty() || !history.empty()) {
@@ -202,6 +211,7 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
             chunk_sum(chunk, at, f,
                       [&](const ElementBlock& block, std::size_t first, std::size_t last,
                           const ElementBlock::LocalNodes& local) { return block.add_force(first, last, at, local); });
+        interactions.add_chunk_force(c, accepted, trial, f, history);
     });
     for (std::size_t c = 0; c < chunks_.size(); ++c)
         if (inverted_[c] != ElementBlock::none)
@@ -234,18 +244,24 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
                                         Add add) const {
     const ElementBlock& block = *blocks_[chunk.block];
     const std::size_t n = chunk.last_node - chunk.first_node;
-    double* u = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
-    double *local_f = u + 2 * n, *v = u + 4 * n;
     const std::int32_t* nodes = chunk_nodes_.data() + chunk.first_node;
-    const auto gather = [&](const double* from, double* to) {
-        for (std::size_t i = 0; i < n; ++i) {
-            to[2 * i] = from[2 * nodes[i]];
-            to[2 * i + 1] = from[2 * nodes[i] + 1];
-        }
-    };
-    gather(at.u, u);
-    if (block.viscous()) gather(at.v, v);
-    std::fill(local_f, local_f + 2 * n, 0.0);
+    ElementBlock::LocalNodes local;
+    if (chunk.in_a_row) {
+        const auto first = 2 * static_cast<std::size_t>(*nodes);
+        local = {at.u + first, at.v == nullptr ? nullptr : at.v + first, f.data() + first};
+    } else {
+        double* scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
+        const auto gather = [&](const double* from, double* to) {
+            for (std::size_t i = 0; i < n; ++i) {
+                to[2 * i] = from[2 * nodes[i]];
+                to[2 * i + 1] = from[2 * nodes[i] + 1];
+            }
+        };
+        local = {scratch, scratch + 4 * n, scratch + 2 * n};
+        gather(at.u, scratch);
+        if (block.viscous()) gather(at.v, scratch + 4 * n);
+    }
+    std::fill(local.f, local.f + 2 * n, 0.0);
     std::ptrdiff_t inverted = ElementBlock::none;
     constexpr std::size_t n_pieces = 16;
     const std::size_t piece = (chunk.last - chunk.first + n_pieces - 1) / n_pieces;
@@ -253,8 +269,9 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
          ++i, pack += piece) {
         // meanwhile the nodes of the next chunk, about as many as this one has, come to a nearer cache
         if (far_) prefetch_nodes(chunk.last_node + n * i / n_pieces, chunk.last_node + n * (i + 1) / n_pieces, at.u, f);
-        inverted = add(block, pack, std::min(pack + piece, chunk.last), ElementBlock::LocalNodes{u, v, local_f});
+        inverted = add(block, pack, std::min(pack + piece, chunk.last), local);
     }
+    if (chunk.in_a_row) return inverted;
     const std::size_t n_own = chunk.first_shared - chunk.first_node;
     const auto scatter = [](const double* from, const std::int32_t* where, std::size_t count, double* to) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -262,8 +279,8 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
             to[2 * where[i] + 1] = from[2 * i + 1];
         }
     };
-    scatter(local_f, nodes, n_own, f.data());
-    scatter(local_f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
+    scatter(local.f, nodes, n_own, f.data());
+    scatter(local.f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
     return inverted;
 }
 

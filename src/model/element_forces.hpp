@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/element_block.hpp"
+#include "model/interaction.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
@@ -45,11 +46,16 @@ public:
     int n_sub_triangles() const { return blocks_.front()->n_sub_triangles(); }
     void initial_memory(std::span<double> z, std::span<double> history) const;
 
+    std::size_t n_chunks() const { return chunks_.size(); }
+    /// The chunk that alone has a node, -1: several have it; shape (n_nodes).
+    std::vector<std::int32_t> chunk_of_node() const;
+
+    /// With what interactions add chunk by chunk.
     /// @param[out] f  overwritten, N, shape (2 n_nodes)
     /// @param[out] z, history  overwritten if not empty
     /// @throws RecoverableError on an inverted element
-    void force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z = {},
-               std::span<double> history = {}) const;
+    void force(const State& accepted, const Trial& trial, const Interactions& interactions, std::span<double> f,
+               std::span<double> z = {}, std::span<double> history = {}) const;
     void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;
 
@@ -65,6 +71,7 @@ private:
         // its nodes in chunk_nodes_: first those that no other chunk touches, then the shared ones, with slots
         std::size_t first_node = 0, first_shared = 0, last_node = 0;
         std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_
+        bool in_a_row = false;       ///< its nodes follow each other, and no other chunk touches them: needs no copies
     };
 
     /// The nodes of a chunk, into nodes_of_chunk_.
