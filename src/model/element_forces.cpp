@@ -115,6 +115,25 @@ void ElementForces::plan() {
             local_nodes[i].value = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
     }
 
+    between_.clear();
+    const auto add_between = [&](std::size_t first, std::size_t last) {
+        for (; first < last; first += parallel_range)
+            between_.emplace_back(first, std::min<std::size_t>(first + parallel_range, last));
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> rows;  // degrees of freedom of chunks in a row
+    for (const Chunk& chunk : chunks_)
+        if (chunk.in_a_row) {
+            const auto first = static_cast<std::size_t>(chunk_nodes_[chunk.first_node]);
+            rows.emplace_back(2 * first, 2 * (first + chunk.last_node - chunk.first_node));
+        }
+    std::ranges::sort(rows);
+    std::size_t behind = 0;
+    for (const auto& [first, last] : rows) {
+        add_between(behind, first);
+        behind = last;
+    }
+    add_between(behind, 2 * n_nodes_);
+
     // slots of shared nodes: by node, and for one node by chunk, which is the order of chunk_nodes_
     std::vector<std::size_t> next(n_nodes_, 0);
     for (std::size_t node = 0; node < n_nodes_; ++node) {
@@ -194,7 +213,8 @@ std::vector<std::int32_t> ElementForces::chunk_of_node() const {
 }
 
 void ElementForces::force(const State& accepted, const Trial& trial, const Interactions& interactions,
-                          std::span<double> f, std::span<double> z, std::span<double> history) const {
+                          std::span<double> f, std::span<double> z, std::span<double> history,
+                          const Arrival* arrival) const {
     const auto evaluation_of = [&](std::size_t block) {
         ElementBlock::Evaluation at = evaluation(block, accepted, trial);
         if (!z.empty() || !history.empty()) {
@@ -205,7 +225,17 @@ void ElementForces::force(const State& accepted, const Trial& trial, const Inter
         return at;
     };
     prepare_scratch();
+    if (arrival != nullptr) {
+        const auto n = static_cast<std::ptrdiff_t>(between_.size());
+#pragma omp parallel for schedule(static) if (n > 1)
+        for (std::ptrdiff_t i = 0; i < n; ++i)
+            arrival->bring(between_[static_cast<std::size_t>(i)].first, between_[static_cast<std::size_t>(i)].second);
+    }
     for_each_chunk([&](std::size_t c, const Chunk& chunk) {
+        if (arrival != nullptr && chunk.in_a_row) {
+            const auto first = static_cast<std::size_t>(chunk_nodes_[chunk.first_node]);
+            arrival->bring(2 * first, 2 * (first + chunk.last_node - chunk.first_node));
+        }
         const ElementBlock::Evaluation at = evaluation_of(chunk.block);
         inverted_[c] =
             chunk_sum(chunk, at, f,

@@ -53,9 +53,10 @@ public:
     /// With what interactions add chunk by chunk.
     /// @param[out] f  overwritten, N, shape (2 n_nodes)
     /// @param[out] z, history  overwritten if not empty
+    /// @param arrival  brings the trial's displacements; null: they are there
     /// @throws RecoverableError on an inverted element
     void force(const State& accepted, const Trial& trial, const Interactions& interactions, std::span<double> f,
-               std::span<double> z = {}, std::span<double> history = {}) const;
+               std::span<double> z = {}, std::span<double> history = {}, const Arrival* arrival = nullptr) const;
     void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;
 
@@ -104,6 +105,8 @@ private:
     std::vector<std::int32_t> chunk_nodes_;                  ///< of each chunk in the order of its local numbers
     std::vector<std::int32_t> chunk_slots_;                  ///< where its part of the force of its shared nodes goes
     std::size_t largest_chunk_ = 0;                          ///< nodes
+    /// First and last degrees of freedom of what no chunk in a row has, in pieces for threads.
+    std::vector<std::pair<std::size_t, std::size_t>> between_;
 
     // nodes that more than one chunk touches, ascending, and where their slots begin; by ascending chunk
     std::vector<std::int32_t> shared_nodes_;

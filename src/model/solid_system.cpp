@@ -117,6 +117,13 @@ void SolidSystem::force_and_update(const State& accepted, const Trial& trial, st
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
+void SolidSystem::force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
+                                   std::span<double> f, std::span<double> z, std::span<double> history) const {
+    elements_.force(accepted, trial, interactions_, f, z, history, &arrival);
+    interactions_.add_force(accepted, trial, f, history);
+    for (const auto& term : terms_) term->add_force(trial, f);
+}
+
 void SolidSystem::external_force(const Trial& trial, std::span<double> f) const {
     std::ranges::fill(f, 0.0);
     for (const auto& term : terms_) term->add_force(trial, f);
