@@ -32,7 +32,8 @@ class JointBatch final : public Joints {
                                  failure_row = joint_points * n_members, mode_row = failure_row + 1,
                                  factor_row = mode_row + 1, history_rows = factor_row + (extrinsic ? joint_points : 0);
     /// Whether there is a range in which nothing happens to a joint, and it is a pair of springs.
-    static constexpr bool has_elastic_range = requires { &Law::elastic_reach; } && !extrinsic;
+    static constexpr bool has_elastic_range = requires { &Law::elastic_reach; }
+    &&!extrinsic;
     /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
     static constexpr double far_slip = 0.25;
 
@@ -199,7 +200,8 @@ private:
     static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
     const InnerSides* inner_;
     std::vector<CohesionProperties<double>> later_;
-    std::vector<std::size_t> last_pack_of_chunk_;  ///< behind it are the next chunk's, behind the last one's loose joints
+    std::vector<std::size_t>
+        last_pack_of_chunk_;  ///< behind it are the next chunk's, behind the last one's loose joints
     // which forces of loose joints meet at a node, so that they are summed in one order
     std::vector<std::int32_t> touched_;            ///< nodes, ascending
     std::vector<std::size_t> first_;               ///< in slots_, shape (touched + 1)
@@ -270,34 +272,6 @@ void JointBatch<Law, extrinsic>::fill_last_pack() {
 }
 
 template <class Law, bool extrinsic>
-void JointBatch<Law, extrinsic>::plan_sums() {
-    const std::size_t first_loose = first_loose_pack() * pack_width;
-    std::int32_t largest = -1;
-    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
-        for (std::size_t k = 0; k < joint_nodes; ++k) largest = std::max(largest, node(joint, k));
-    std::vector<std::size_t> next(static_cast<std::size_t>(largest + 2), 0);
-    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
-        for (std::size_t k = 0; k < joint_nodes; ++k) ++next[static_cast<std::size_t>(node(joint, k)) + 1];
-    touched_.clear();
-    first_.clear();
-    for (std::size_t n = 0; n + 1 < next.size(); ++n) {
-        if (next[n + 1] > 0) {
-            touched_.push_back(static_cast<std::int32_t>(n));
-            first_.push_back(next[n]);
-        }
-        next[n + 1] += next[n];
-    }
-    slots_.resize(next.back());
-    first_.push_back(slots_.size());
-    // in the order in which add_force() goes through packs
-    for (std::size_t pack = first_loose_pack(); pack < n_packs(); ++pack)
-        for (std::size_t k = 0; k < joint_nodes; ++k)
-            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint)
-                slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
-                    (pack * n_dof + 2 * k) * pack_width + joint % pack_width;
-}
-
-template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) const {
     std::ranges::fill(history, 0.0);
     if constexpr (extrinsic)
@@ -306,9 +280,8 @@ void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) cons
 }
 
 template <class Law, bool extrinsic>
-auto JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack,
-                                        const Nodal& u, std::span<double> updated) const
-    -> Nodal {
+auto JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack, const Nodal& u,
+                                        std::span<double> updated) const -> Nodal {
     const auto motion = joint_motion(edge(pack), u);
     std::array<Traction<Pack>, joint_points> tractions;
     Pack damage(1.0), apart(0.0), along(0.0);
@@ -375,9 +348,8 @@ void JointBatch<Law, extrinsic>::add_packs(std::size_t first, std::size_t last, 
 }
 
 template <class Law, bool extrinsic>
-void JointBatch<Law, extrinsic>::add_chunk_force(std::size_t chunk, const Trial& trial,
-                                                 std::span<const double> history, std::span<double> f,
-                                                 std::span<double> updated) const {
+void JointBatch<Law, extrinsic>::add_chunk_force(std::size_t chunk, const Trial& trial, std::span<const double> history,
+                                                 std::span<double> f, std::span<double> updated) const {
     if (chunk < last_pack_of_chunk_.size())
         add_packs(chunk == 0 ? 0 : last_pack_of_chunk_[chunk - 1], last_pack_of_chunk_[chunk], trial, history, f,
                   updated);
@@ -394,13 +366,14 @@ void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const d
     }
     const std::size_t before = first_loose_pack();
     parallel_ranges(n_packs() - before, [&](std::size_t first, std::size_t last) {
-        for_each_pack(before + first, before + last, trial, history, updated, [&](std::size_t pack, const Nodal& forces) {
-            double* to = &forces_[pack * n_dof * pack_width];
-            for (std::size_t k = 0; k < joint_nodes; ++k) {
-                forces[k].x.store_aligned(to + 2 * k * pack_width);
-                forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
-            }
-        });
+        for_each_pack(before + first, before + last, trial, history, updated,
+                      [&](std::size_t pack, const Nodal& forces) {
+                          double* to = &forces_[pack * n_dof * pack_width];
+                          for (std::size_t k = 0; k < joint_nodes; ++k) {
+                              forces[k].x.store_aligned(to + 2 * k * pack_width);
+                              forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
+                          }
+                      });
     });
     parallel_ranges(touched_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {

@@ -1,9 +1,38 @@
 #pragma once
-// How joints follow a mesh that comes apart, and what is told of one of them: the second half of joint_batch.hpp.
+// How joints are put in order and follow a mesh that comes apart, and what is told of one of them: the second half of
+// joint_batch.hpp.
 
 #include "fracture/joint_batch.hpp"
 
 namespace gneiss {
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::plan_sums() {
+    const std::size_t first_loose = first_loose_pack() * pack_width;
+    std::int32_t largest = -1;
+    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) largest = std::max(largest, node(joint, k));
+    std::vector<std::size_t> next(static_cast<std::size_t>(largest + 2), 0);
+    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) ++next[static_cast<std::size_t>(node(joint, k)) + 1];
+    touched_.clear();
+    first_.clear();
+    for (std::size_t n = 0; n + 1 < next.size(); ++n) {
+        if (next[n + 1] > 0) {
+            touched_.push_back(static_cast<std::int32_t>(n));
+            first_.push_back(next[n]);
+        }
+        next[n + 1] += next[n];
+    }
+    slots_.resize(next.back());
+    first_.push_back(slots_.size());
+    // in the order in which add_force() goes through packs
+    for (std::size_t pack = first_loose_pack(); pack < n_packs(); ++pack)
+        for (std::size_t k = 0; k < joint_nodes; ++k)
+            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint)
+                slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
+                    (pack * n_dof + 2 * k) * pack_width + joint % pack_width;
+}
 
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks) {

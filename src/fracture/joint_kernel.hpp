@@ -69,8 +69,8 @@ std::array<Vec2<T>, joint_nodes> joint_forces(const JointMotion<T>& motion, cons
     return f;
 }
 
-/// The same where both tractions are k times opening and slip: then an end pulls along D, w k D, and the moment is none,
-/// whichever way the middle line points.
+/// The same where both tractions are k times opening and slip: then an end pulls along D, w k D, and the moment is
+/// none, whichever way the middle line points.
 /// @param stiffness  w k, N/m
 template <class V, class T>
 std::array<Vec2<T>, joint_nodes> elastic_forces(const V& stiffness, const std::array<Vec2<T>, joint_nodes>& u) {

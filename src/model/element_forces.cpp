@@ -212,9 +212,9 @@ std::vector<std::int32_t> ElementForces::chunk_of_node() const {
     return chunk_of;
 }
 
-void ElementForces::force(const State& accepted, const Trial& trial, const Interactions& interactions,
-                          std::span<double> f, std::span<double> z, std::span<double> history,
-                          const Arrival* arrival) const {
+void ElementForces::force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                          std::span<double> history, const Company& company) const {
+    const Arrival* arrival = company.arrival;
     const auto evaluation_of = [&](std::size_t block) {
         ElementBlock::Evaluation at = evaluation(block, accepted, trial);
         if (!z.empty() || !history.empty()) {
@@ -241,7 +241,7 @@ void ElementForces::force(const State& accepted, const Trial& trial, const Inter
             chunk_sum(chunk, at, f,
                       [&](const ElementBlock& block, std::size_t first, std::size_t last,
                           const ElementBlock::LocalNodes& local) { return block.add_force(first, last, at, local); });
-        interactions.add_chunk_force(c, accepted, trial, f, history);
+        if (company.interactions != nullptr) company.interactions->add_chunk_force(c, accepted, trial, f, history);
     });
     for (std::size_t c = 0; c < chunks_.size(); ++c)
         if (inverted_[c] != ElementBlock::none)

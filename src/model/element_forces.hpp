@@ -5,6 +5,9 @@
 // small enough for the nearest cache, and adds its elements in ascending order. A node that only one chunk touches then
 // has its force; of a node that several chunks touch, each chunk leaves its part in a slot, and the slots are added in
 // ascending order of chunk.
+//
+// A chunk whose nodes follow each other and that shares none (meshes with joints on every edge) works on them in place.
+// Right before its elements their displacements are brought; right behind them come the joints inside the chunk.
 
 #include <cstdint>
 #include <memory>
@@ -50,13 +53,16 @@ public:
     /// The chunk that alone has a node, -1: several have it; shape (n_nodes).
     std::vector<std::int32_t> chunk_of_node() const;
 
-    /// With what interactions add chunk by chunk.
+    /// What goes with the elements, chunk by chunk.
+    struct Company {
+        const Interactions* interactions = nullptr;  ///< add their forces inside a chunk behind its elements
+        const Arrival* arrival = nullptr;            ///< brings the trial's displacements; null: they are there
+    };
     /// @param[out] f  overwritten, N, shape (2 n_nodes)
     /// @param[out] z, history  overwritten if not empty
-    /// @param arrival  brings the trial's displacements; null: they are there
     /// @throws RecoverableError on an inverted element
-    void force(const State& accepted, const Trial& trial, const Interactions& interactions, std::span<double> f,
-               std::span<double> z = {}, std::span<double> history = {}, const Arrival* arrival = nullptr) const;
+    void force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z = {},
+               std::span<double> history = {}, const Company& company = {nullptr, nullptr}) const;
     void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;
 

@@ -105,21 +105,21 @@ void SolidSystem::constraint_values(double t, double last_event, std::span<doubl
 }
 
 void SolidSystem::force(const State& accepted, const Trial& trial, std::span<double> f) const {
-    elements_.force(accepted, trial, interactions_, f);
+    elements_.force(accepted, trial, f, {}, {}, {&interactions_, nullptr});
     interactions_.add_force(accepted, trial, f, {});
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
 void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                    std::span<double> history) const {
-    elements_.force(accepted, trial, interactions_, f, z, history);
+    elements_.force(accepted, trial, f, z, history, {&interactions_, nullptr});
     interactions_.add_force(accepted, trial, f, history);
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
 void SolidSystem::force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
                                    std::span<double> f, std::span<double> z, std::span<double> history) const {
-    elements_.force(accepted, trial, interactions_, f, z, history, &arrival);
+    elements_.force(accepted, trial, f, z, history, {&interactions_, &arrival});
     interactions_.add_force(accepted, trial, f, history);
     for (const auto& term : terms_) term->add_force(trial, f);
 }

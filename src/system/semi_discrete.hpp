@@ -101,7 +101,8 @@ public:
 
     /// force(), or force_and_update() where z and history are not empty, at displacements that are on their way: a
     /// system that goes through its nodes piece by piece brings a piece right before it needs it, and has it near. Each
-    /// degree of freedom is brought once, by any thread, before f is written there; all are when this returns or throws.
+    /// degree of freedom is brought once, by any thread, before f is written there; all are when this returns or
+    /// throws.
     virtual void force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
                                   std::span<double> f, std::span<double> z, std::span<double> history) const {
         parallel_ranges(f.size(), [&](std::size_t first, std::size_t last) { arrival.bring(first, last); });
