@@ -211,8 +211,10 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
     std::size_t n_steps = 1;
     for (double dt_before = 0;; ++n_steps) {
         try {
-            if (n_steps > 1) kick_on_and_drift(system, state, dt_before);
-            evaluate(system, state);
+            if (n_steps > 1)
+                kick_on_and_evaluate(system, state, dt_before);
+            else
+                evaluate(system, state);
         } catch (...) {
             if (n_steps == 1) throw;
             synchronise(system, state, dt_before);  // what went wrong will again when it is the first step
@@ -235,11 +237,10 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
 }
 
 void CentralDifference::evaluate(const SemiDiscrete& system, const State& state) {
-    const Trial trial{next_.t, next_.last_event, next_.u, next_.v, {}};
     if (remembers())
-        system.force_and_update(state, trial, a_, next_.z, next_.history);
+        system.force_and_update(state, trial(), a_, next_.z, next_.history);
     else
-        system.force(state, trial, a_);
+        system.force(state, trial(), a_);
 }
 
 void CentralDifference::add_path_energies(const SemiDiscrete& system, const State& state) {
@@ -264,32 +265,54 @@ void CentralDifference::accept_unseen(State& state) {
     std::swap(state, next_);
 }
 
-void CentralDifference::kick_on_and_drift(const SemiDiscrete& system, const State& state, double dt_before) {
-    const double half_before = 0.5 * dt_before, half = 0.5 * dt_, dt = dt_;
-    const double *u = state.u.data(), *a = a_.data(), *inverse_mass = inverse_mass_.data();
-    double *u_next = next_.u.data(), *v_half = next_.v.data();
-    const std::size_t n = a_.size();
-    parallel_ranges(n, [=](std::size_t first, std::size_t last) {
+/// f(n), a(n) and v(n), in the operations of kick() and kick_and_drift().
+class CentralDifference::KickAndDrift final : public Arrival {
+public:
+    KickAndDrift(CentralDifference& scheme, const State& state, double dt_before)
+        : scheme_(scheme), state_(state), half_before_(0.5 * dt_before) {}
+
+    void bring(std::size_t first, std::size_t last) const override {
+        const double half_before = half_before_, half = 0.5 * scheme_.dt_, dt = scheme_.dt_;
+        const double *u = state_.u.data(), *f = scheme_.a_.data(), *inverse_mass = scheme_.inverse_mass_.data();
+        double *u_next = scheme_.next_.u.data(), *v_half = scheme_.next_.v.data();
+        const std::size_t n = scheme_.a_.size();
         constexpr std::size_t length = 64, ahead = 6 * length;
         for (std::size_t begin = first; begin < last; begin += length) {
             const std::size_t end = std::min(begin + length, last);
-            for (const double* values : {u, a, inverse_mass}) prefetch(values, begin + ahead, end + ahead, n);
+            for (const double* values : {u, f, inverse_mass}) prefetch(values, begin + ahead, end + ahead, n);
             for (double* values : {u_next, v_half}) prefetch<Access::write>(values, begin + ahead, end + ahead, n);
 #pragma omp simd
             for (std::size_t i = begin; i < end; ++i) {
-                // f(n), a(n) and v(n), in the operations of kick() and kick_and_drift()
-                const double acceleration = inverse_mass[i] * a[i];
+                const double acceleration = inverse_mass[i] * f[i];
                 const double v_next = v_half[i] + half_before * acceleration + half * acceleration;
                 v_half[i] = v_next;
                 u_next[i] = u[i] + dt * v_next;
             }
         }
-    });
+        const auto& moved = scheme_.moved_;
+        for (auto one = std::ranges::lower_bound(moved, first, {}, &Moved::dof); one != moved.end() && one->dof < last;
+             ++one) {
+            u_next[one->dof] = one->u;
+            v_half[one->dof] = one->v;
+        }
+    }
+
+private:
+    CentralDifference& scheme_;
+    const State& state_;
+    double half_before_;
+};
+
+void CentralDifference::kick_on_and_evaluate(const SemiDiscrete& system, const State& state, double dt_before) {
     for (const std::size_t dof : special_) {
-        next_.v[dof] = state.v[dof] + half * a_[dof];
-        next_.u[dof] = state.u[dof] + dt * next_.v[dof];
+        next_.v[dof] = state.v[dof] + 0.5 * dt_ * a_[dof];
+        next_.u[dof] = state.u[dof] + dt_ * next_.v[dof];
     }
     prescribe(system, state);
+    moved_.clear();
+    for (const std::size_t dof : special_) moved_.push_back({dof, next_.u[dof], next_.v[dof]});
+    std::ranges::sort(moved_, {}, &Moved::dof);
+    system.force_on_arrival(state, trial(), KickAndDrift(*this, state, dt_before), a_, next_.z, next_.history);
 }
 
 void CentralDifference::synchronise(const SemiDiscrete& system, State& state, double dt_before) {

@@ -62,6 +62,8 @@ private:
     void plan_step(const SemiDiscrete& system, const State& state, double t_stop);
     void kick_and_drift(const SemiDiscrete& system, const State& state);
     void prescribe(const SemiDiscrete& system, const State& state);
+    /// The end of the step.
+    Trial trial() const { return {next_.t, next_.last_event, next_.u, next_.v, {}}; }
     /// f(n+1) into a_; z and history into next_.
     void evaluate(const SemiDiscrete& system, const State& state);
     void kick(const SemiDiscrete& system, const State& state);
@@ -78,8 +80,10 @@ private:
     bool can_pass_unseen(const SemiDiscrete& system) const;
     /// Accepts a step unseen.
     void accept_unseen(State& state);
-    /// The end of a step of length dt_before and the beginning of the next one, on all degrees of freedom.
-    void kick_on_and_drift(const SemiDiscrete& system, const State& state, double dt_before);
+    /// The end of a step of length dt_before and the beginning of the next one, on all degrees of freedom, with the
+    /// evaluation that ends it: a piece of the nodes is moved when the system asks for it.
+    void kick_on_and_evaluate(const SemiDiscrete& system, const State& state, double dt_before);
+    class KickAndDrift;
     /// state.v and a_ at the last accepted state, after a later step has failed.
     void synchronise(const SemiDiscrete& system, State& state, double dt_before);
     /// From forces in a_ to accelerations; and net_, at an accepted state.
@@ -112,6 +116,12 @@ private:
     std::vector<double> net_, net_before_, reactions_;
     std::vector<AbsorbingNode> absorbing_;
     std::vector<std::size_t> special_;  ///< degrees of freedom that are constrained or absorbing
+    /// Where a step moves a special degree of freedom to.
+    struct Moved {
+        std::size_t dof;
+        double u, v;
+    };
+    std::vector<Moved> moved_;  ///< by ascending degree of freedom
     mutable std::vector<double> partial_;
 };
 

@@ -56,6 +56,11 @@ struct MixedModeLaw {
         }
     }
 
+    /// Length of (o, s), m, up to which an intact point stays so whichever way they point: k |(o, s)| <= min(f_t, c_0).
+    static double elastic_reach(const CohesionProperties<double>& p) {
+        return (p.tensile_strength < p.cohesion ? p.tensile_strength : p.cohesion) / p.penalty;
+    }
+
     /// Traction at a trial, from the accepted history.
     /// @param opening  o, m, > 0 apart
     /// @param slip     s, m

@@ -12,6 +12,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "base/dual.hpp"
+#include "base/flatten.hpp"
 #include "base/pack.hpp"
 #include "base/parallel.hpp"
 #include "fracture/cohesion_law.hpp"
@@ -26,11 +27,15 @@ namespace gneiss {
 template <class Law, bool extrinsic>
 class JointBatch final : public Joints {
     using History = typename Law::template History<Pack>;
+    using Nodal = std::array<Vec2<Pack>, joint_nodes>;
     using Packs = std::vector<double, xsimd::aligned_allocator<double>>;
     static constexpr std::size_t n_members = History::members.size(),
                                  n_properties = CohesionProperties<double>::members.size(), n_dof = 2 * joint_nodes,
                                  failure_row = joint_points * n_members, mode_row = failure_row + 1,
                                  factor_row = mode_row + 1, history_rows = factor_row + (extrinsic ? joint_points : 0);
+    /// Whether there is a range in which nothing happens to a joint, and it is a pair of springs.
+    static constexpr bool has_elastic_range = requires { &Law::elastic_reach; }
+    &&!extrinsic;
     /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
     static constexpr double far_slip = 0.25;
 
@@ -48,6 +53,10 @@ public:
     void initial_history(std::span<double> history) const override;
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;
+    /// Intrinsic ones do, whose nodes never change: joints inside chunks come first, chunk after chunk.
+    void take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks) override;
+    void add_chunk_force(std::size_t chunk, const Trial& trial, std::span<const double> history, std::span<double> f,
+                         std::span<double> updated) const override;
     void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                 PathEnergies& energies) override;
     std::vector<std::array<std::int32_t, 2>> couplings() const override;
@@ -93,25 +102,19 @@ private:
     std::size_t entry(std::size_t joint, std::size_t which) const {
         return place(joint / pack_width, which) + joint % pack_width;
     }
-    /// What untouched joints do: true, and their tractions, if that is what they are at this trial as well.
-    bool stay_elastic(std::span<const double> history, std::size_t pack, const JointMotion<Pack>& motion,
-                      std::array<Traction<Pack>, joint_points>& tractions) const {
-        if constexpr (requires { &Law::template stays_intact<Pack, Pack>; } && !extrinsic) {
-            if (!untouched(history, pack)) return false;
-            CohesionProperties<Pack> p{};
-            for (const std::size_t i : {0, 1, 2, 6})
-                p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
-            const Pack intact(0.0);
-            const auto both = Law::stays_intact(p, intact, motion.opening[0], motion.slip[0]) &&
-                              Law::stays_intact(p, intact, motion.opening[1], motion.slip[1]);
-            if (!every_lane(both)) return false;
-            const Pack stiffness = p.penalty * load(weights_, pack);
-            for (std::size_t i = 0; i < joint_points; ++i)
-                tractions[i] = {stiffness * motion.opening[i], stiffness * motion.slip[i]};
-            return true;
-        } else {
-            return false;
-        }
+    /// Whether untouched joints stay elastic at this trial.
+    bool stay_elastic(std::size_t pack, const Nodal& u) const {
+        // most ends are far from their strengths: then neither these nor the direction of the joint matter
+        const Vec2<Pack> start = u[2] - u[0], end = u[3] - u[1];
+        const Pack reach_squared = load(elastic_, 2 * pack + 1);
+        if (every_lane(xsimd::max(dot(start, start), dot(end, end)) <= reach_squared)) return true;
+        const auto motion = joint_motion(edge(pack), u);
+        CohesionProperties<Pack> p{};
+        for (const std::size_t i : {0, 1, 2, 6})
+            p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
+        const Pack intact(0.0);
+        return every_lane(Law::stays_intact(p, intact, motion.opening[0], motion.slip[0]) &&
+                          Law::stays_intact(p, intact, motion.opening[1], motion.slip[1]));
     }
     Vec2<Pack> edge(std::size_t pack) const { return {load(edges_, 2 * pack), load(edges_, 2 * pack + 1)}; }
     double length(std::size_t joint) const {
@@ -145,8 +148,8 @@ private:
     void store(const Pack& value, std::span<double> history, std::size_t pack, std::size_t which) const {
         value.store_unaligned(&history[place(pack, which)]);
     }
-    std::array<Vec2<Pack>, joint_nodes> gather(std::span<const double> u, std::size_t pack) const {
-        std::array<Vec2<Pack>, joint_nodes> at;
+    Nodal gather(std::span<const double> u, std::size_t pack) const {
+        Nodal at;
         for (std::size_t k = 0; k < joint_nodes; ++k)
             gather_pairs(u.data(), &nodes_[(pack * joint_nodes + k) * pack_width], at[k].x, at[k].y);
         return at;
@@ -174,9 +177,17 @@ private:
     std::int32_t node(std::size_t joint, std::size_t k) const {
         return nodes_[(joint / pack_width * joint_nodes + k) * pack_width + joint % pack_width].value;
     }
-    /// Tractions times areas of joints to which something has happened, or may, and their updated history.
-    void soften(double t, std::span<const double> history, std::size_t pack, const JointMotion<Pack>& motion,
-                std::array<Traction<Pack>, joint_points>& tractions, std::span<double> updated) const;
+    /// take(pack, forces) for packs of joints, and their updated history. Flattened, so that a pack of elastic ones
+    /// stays in registers.
+    template <class Take>
+    GNEISS_FLATTEN void for_each_pack(std::size_t first, std::size_t last, const Trial& trial,
+                                      std::span<const double> history, std::span<double> updated, Take take) const;
+    /// Forces of joints to which something has happened, or may, and their updated history.
+    [[gnu::noinline]] Nodal soften(double t, std::span<const double> history, std::size_t pack, const Nodal& u,
+                                   std::span<double> updated) const;
+    void add_packs(std::size_t first, std::size_t last, const Trial& trial, std::span<const double> history,
+                   std::span<double> f, std::span<double> updated) const;
+    std::size_t first_loose_pack() const { return last_pack_of_chunk_.empty() ? 0 : last_pack_of_chunk_.back(); }
     void append(const Mesh& mesh, const Joint& joint);
     void fill_last_pack();
     void plan_sums();
@@ -187,12 +198,15 @@ private:
     Packs edges_;                            ///< a0 to a1 in the reference shape, m, shape (packs, 2, lanes)
     Packs weights_;                          ///< m2, shape (packs, lanes)
     Packs properties_;                       ///< shape (packs, n_properties, lanes)
+    Packs elastic_;                          ///< w k, N/m, and the square of elastic_reach, m2, shape (packs, 2, lanes)
     std::vector<std::int32_t> sides_;        ///< inner side of each joint
     std::vector<std::size_t> last_of_side_;  ///< joint with the highest number, shape (sides); `nowhere`: none
     static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
     const InnerSides* inner_;
     std::vector<CohesionProperties<double>> later_;
-    // which forces meet at a node, so that they are summed in one order
+    std::vector<std::size_t>
+        last_pack_of_chunk_;  ///< behind it are the next chunk's, behind the last one's loose joints
+    // which forces of loose joints meet at a node, so that they are summed in one order
     std::vector<std::int32_t> touched_;            ///< nodes, ascending
     std::vector<std::size_t> first_;               ///< in slots_, shape (touched + 1)
     std::vector<std::size_t> slots_;               ///< of forces_: where x stands; y is pack_width behind
@@ -217,6 +231,7 @@ void JointBatch<Law, extrinsic>::append(const Mesh& mesh, const Joint& joint) {
         edges_.resize((pack + 1) * 2 * pack_width);
         weights_.resize((pack + 1) * pack_width);
         properties_.resize((pack + 1) * n_properties * pack_width);
+        if (has_elastic_range) elastic_.resize((pack + 1) * 2 * pack_width);
         forces_.resize((pack + 1) * n_dof * pack_width);
     }
     ++n_joints_;
@@ -230,6 +245,11 @@ void JointBatch<Law, extrinsic>::append(const Mesh& mesh, const Joint& joint) {
     for (std::size_t i = 0; i < n_properties; ++i)
         properties_[(n_properties * pack + i) * pack_width + lane] =
             joint.properties.*CohesionProperties<double>::members[i];
+    if constexpr (has_elastic_range) {
+        const double reach = Law::elastic_reach(joint.properties);
+        elastic_[2 * pack * pack_width + lane] = weights_[pack * pack_width + lane] * joint.properties.penalty;
+        elastic_[(2 * pack + 1) * pack_width + lane] = reach * reach;
+    }
     sides_.push_back(joint.side);
     const auto side = static_cast<std::size_t>(joint.side);
     if (side >= last_of_side_.size()) last_of_side_.resize(side + 1, nowhere);
@@ -248,34 +268,11 @@ void JointBatch<Law, extrinsic>::fill_last_pack() {
     repeat(nodes_, joint_nodes);
     repeat(edges_, 2);
     repeat(properties_, n_properties);
-    for (std::size_t slot = n_joints_; slot < n_packs() * pack_width; ++slot) weights_[slot] = 0;
-}
-
-template <class Law, bool extrinsic>
-void JointBatch<Law, extrinsic>::plan_sums() {
-    std::int32_t largest = -1;
-    for (std::size_t joint = 0; joint < n_joints_; ++joint)
-        for (std::size_t k = 0; k < joint_nodes; ++k) largest = std::max(largest, node(joint, k));
-    std::vector<std::size_t> next(static_cast<std::size_t>(largest + 2), 0);
-    for (std::size_t joint = 0; joint < n_joints_; ++joint)
-        for (std::size_t k = 0; k < joint_nodes; ++k) ++next[static_cast<std::size_t>(node(joint, k)) + 1];
-    touched_.clear();
-    first_.clear();
-    for (std::size_t n = 0; n + 1 < next.size(); ++n) {
-        if (next[n + 1] > 0) {
-            touched_.push_back(static_cast<std::int32_t>(n));
-            first_.push_back(next[n]);
-        }
-        next[n + 1] += next[n];
+    if (has_elastic_range) repeat(elastic_, 2);
+    for (std::size_t slot = n_joints_; slot < n_packs() * pack_width; ++slot) {
+        weights_[slot] = 0;
+        if (has_elastic_range) elastic_[2 * (slot - slot % pack_width) + slot % pack_width] = 0;
     }
-    slots_.resize(next.back());
-    first_.push_back(slots_.size());
-    // in the order in which add_force() goes through packs
-    for (std::size_t pack = 0; pack < n_packs(); ++pack)
-        for (std::size_t k = 0; k < joint_nodes; ++k)
-            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint)
-                slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
-                    (pack * n_dof + 2 * k) * pack_width + joint % pack_width;
 }
 
 template <class Law, bool extrinsic>
@@ -287,10 +284,10 @@ void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) cons
 }
 
 template <class Law, bool extrinsic>
-void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack,
-                                        const JointMotion<Pack>& motion,
-                                        std::array<Traction<Pack>, joint_points>& tractions,
-                                        std::span<double> updated) const {
+auto JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack, const Nodal& u,
+                                        std::span<double> updated) const -> Nodal {
+    const auto motion = joint_motion(edge(pack), u);
+    std::array<Traction<Pack>, joint_points> tractions;
     Pack damage(1.0), apart(0.0), along(0.0);
     for (std::size_t i = 0; i < joint_points; ++i) {
         const CohesionProperties<Pack> law = of(history, pack, i);
@@ -310,7 +307,8 @@ void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> histor
         along += motion.slip[i] * motion.slip[i];
         if constexpr (extrinsic) store(row(history, pack, factor_row + i), updated, pack, factor_row + i);
     }
-    if (updated.empty()) return;
+    const auto forces = joint_forces(motion, Pack(1.0), tractions);
+    if (updated.empty()) return forces;
     const Pack failed = row(history, pack, failure_row);
     const auto fails = (failed == Pack(0.0)) && (damage >= Pack(1.0));
     store(choose(fails, Pack(t), failed), updated, pack, failure_row);
@@ -318,43 +316,70 @@ void JointBatch<Law, extrinsic>::soften(double t, std::span<const double> histor
     store(choose(fails, Pack(apart / choose(both > Pack(0.0), both, Pack(1.0))), row(history, pack, mode_row)), updated,
           pack, mode_row);
     updated[pack] = 1;
+    return forces;
 }
 
 // ---- forces --------------------------------------------------------------------------------------------------------
 
 template <class Law, bool extrinsic>
+template <class Take>
+void JointBatch<Law, extrinsic>::for_each_pack(std::size_t first, std::size_t last, const Trial& trial,
+                                               std::span<const double> history, std::span<double> updated,
+                                               Take take) const {
+    for (std::size_t pack = first; pack < last; ++pack) {
+        const Nodal u = gather(trial.u, pack);
+        if constexpr (has_elastic_range)
+            if (untouched(history, pack) && stay_elastic(pack, u)) {
+                // what stands there is from a trial that was given up, or nothing
+                if (!updated.empty() && !untouched(updated, pack)) {
+                    updated[pack] = 0;
+                    std::ranges::fill(updated.subspan(place(pack, 0), history_rows * pack_width), 0.0);
+                }
+                take(pack, elastic_forces(load(elastic_, 2 * pack), u));
+                continue;
+            }
+        take(pack, soften(trial.t, history, pack, u, updated));
+    }
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_packs(std::size_t first, std::size_t last, const Trial& trial,
+                                           std::span<const double> history, std::span<double> f,
+                                           std::span<double> updated) const {
+    for_each_pack(first, last, trial, history, updated, [&](std::size_t pack, const Nodal& forces) {
+        for (std::size_t k = 0; k < joint_nodes; ++k)
+            scatter_add_pairs(f.data(), &nodes_[(pack * joint_nodes + k) * pack_width], forces[k].x, forces[k].y);
+    });
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::add_chunk_force(std::size_t chunk, const Trial& trial, std::span<const double> history,
+                                                 std::span<double> f, std::span<double> updated) const {
+    if (chunk < last_pack_of_chunk_.size())
+        add_packs(chunk == 0 ? 0 : last_pack_of_chunk_[chunk - 1], last_pack_of_chunk_[chunk], trial, history, f,
+                  updated);
+}
+
+template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                                            std::span<double> updated) const {
-    const auto n = static_cast<std::ptrdiff_t>(n_packs());
     // one thread adds joint by joint; several leave it to the sum below, which adds in the same order
-    const bool alone = omp_get_max_threads() == 1;
-#pragma omp parallel for schedule(static) if (!alone)
-    for (std::ptrdiff_t p = 0; p < n; ++p) {
-        const auto pack = static_cast<std::size_t>(p);
-        const auto motion = joint_motion(edge(pack), gather(trial.u, pack));
-        std::array<Traction<Pack>, joint_points> tractions;
-        if (stay_elastic(history, pack, motion, tractions)) {
-            // what stands there is from a trial that was given up, or nothing
-            if (!updated.empty() && !untouched(updated, pack)) {
-                updated[pack] = 0;
-                std::ranges::fill(updated.subspan(place(pack, 0), history_rows * pack_width), 0.0);
-            }
-        } else {
-            soften(trial.t, history, pack, motion, tractions, updated);
-        }
-        const auto forces = joint_forces(motion, Pack(1.0), tractions);
-        if (alone) {
-            for (std::size_t k = 0; k < joint_nodes; ++k)
-                scatter_add_pairs(f.data(), &nodes_[(pack * joint_nodes + k) * pack_width], forces[k].x, forces[k].y);
-            continue;
-        }
-        double* to = &forces_[pack * n_dof * pack_width];
-        for (std::size_t k = 0; k < joint_nodes; ++k) {
-            forces[k].x.store_aligned(to + 2 * k * pack_width);
-            forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
-        }
+    // one thread adds joint by joint; several leave it to the sum below, which adds in the same order
+    if (omp_get_max_threads() == 1) {
+        add_packs(first_loose_pack(), n_packs(), trial, history, f, updated);
+        return;
     }
-    if (alone) return;
+    const std::size_t before = first_loose_pack();
+    parallel_ranges(n_packs() - before, [&](std::size_t first, std::size_t last) {
+        for_each_pack(before + first, before + last, trial, history, updated,
+                      [&](std::size_t pack, const Nodal& forces) {
+                          double* to = &forces_[pack * n_dof * pack_width];
+                          for (std::size_t k = 0; k < joint_nodes; ++k) {
+                              forces[k].x.store_aligned(to + 2 * k * pack_width);
+                              forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
+                          }
+                      });
+    });
     parallel_ranges(touched_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             double& to_x = f[2 * static_cast<std::size_t>(touched_[i])];
@@ -420,9 +445,8 @@ double JointBatch<Law, extrinsic>::omega_squared(const Trial&, std::span<const d
     bound_.assign(lumped_mass.size() / 2, 0.0);
     for_each_spring(history, [&](std::int32_t node, double k) { bound_[static_cast<std::size_t>(node)] += 2 * k; });
     double largest = 0;
-    for (const std::int32_t node : touched_)
-        largest =
-            std::max(largest, bound_[static_cast<std::size_t>(node)] / lumped_mass[2 * static_cast<std::size_t>(node)]);
+    for (std::size_t node = 0; node < bound_.size(); ++node)
+        largest = std::max(largest, bound_[node] / lumped_mass[2 * node]);
     return largest;
 }
 

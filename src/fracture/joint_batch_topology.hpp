@@ -1,9 +1,83 @@
 #pragma once
-// How joints follow a mesh that comes apart, and what is told of one of them: the second half of joint_batch.hpp.
+// How joints are put in order and follow a mesh that comes apart, and what is told of one of them: the second half of
+// joint_batch.hpp.
 
 #include "fracture/joint_batch.hpp"
 
 namespace gneiss {
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::plan_sums() {
+    const std::size_t first_loose = first_loose_pack() * pack_width;
+    std::int32_t largest = -1;
+    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) largest = std::max(largest, node(joint, k));
+    std::vector<std::size_t> next(static_cast<std::size_t>(largest + 2), 0);
+    for (std::size_t joint = first_loose; joint < n_joints_; ++joint)
+        for (std::size_t k = 0; k < joint_nodes; ++k) ++next[static_cast<std::size_t>(node(joint, k)) + 1];
+    touched_.clear();
+    first_.clear();
+    for (std::size_t n = 0; n + 1 < next.size(); ++n) {
+        if (next[n + 1] > 0) {
+            touched_.push_back(static_cast<std::int32_t>(n));
+            first_.push_back(next[n]);
+        }
+        next[n + 1] += next[n];
+    }
+    slots_.resize(next.back());
+    first_.push_back(slots_.size());
+    // in the order in which add_force() goes through packs
+    for (std::size_t pack = first_loose_pack(); pack < n_packs(); ++pack)
+        for (std::size_t k = 0; k < joint_nodes; ++k)
+            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint)
+                slots_[next[static_cast<std::size_t>(node(joint, k))]++] =
+                    (pack * n_dof + 2 * k) * pack_width + joint % pack_width;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks) {
+    if (extrinsic) return;
+    // joints of a side stay together
+    std::vector<std::vector<std::size_t>> inside(n_chunks);
+    std::vector<std::size_t> loose, order;
+    for (std::size_t first = 0, last = 0; first < n_joints_; first = last) {
+        std::int32_t chunk = chunk_of_node[static_cast<std::size_t>(node(first, 0))];
+        for (; last < n_joints_ && sides_[last] == sides_[first]; ++last)
+            for (std::size_t k = 0; k < joint_nodes; ++k)
+                if (chunk_of_node[static_cast<std::size_t>(node(last, k))] != chunk) chunk = -1;
+        auto& to = chunk < 0 ? loose : inside[static_cast<std::size_t>(chunk)];
+        for (std::size_t joint = first; joint < last; ++joint) to.push_back(joint);
+    }
+    last_pack_of_chunk_.clear();
+    for (const std::vector<std::size_t>& joints : inside) {
+        // whole packs; a side has one joint, or two like all others: none is cut in two
+        const auto whole = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / pack_width * pack_width);
+        order.insert(order.end(), joints.begin(), whole);
+        loose.insert(loose.end(), whole, joints.end());
+        last_pack_of_chunk_.push_back(order.size() / pack_width);
+    }
+    std::ranges::sort(loose);
+    order.insert(order.end(), loose.begin(), loose.end());
+    const auto reorder = [&](auto& values, std::size_t n_rows) {
+        const auto old = values;
+        for (std::size_t to = 0; to < n_joints_; ++to)
+            for (std::size_t r = 0; r < n_rows; ++r)
+                values[(to / pack_width * n_rows + r) * pack_width + to % pack_width] =
+                    old[(order[to] / pack_width * n_rows + r) * pack_width + order[to] % pack_width];
+    };
+    reorder(nodes_, joint_nodes);
+    reorder(edges_, 2);
+    reorder(weights_, 1);
+    reorder(properties_, n_properties);
+    if (has_elastic_range) reorder(elastic_, 2);
+    const auto sides = sides_;
+    for (std::size_t joint = 0; joint < n_joints_; ++joint) {
+        sides_[joint] = sides[order[joint]];
+        last_of_side_[static_cast<std::size_t>(sides_[joint])] = joint;
+    }
+    fill_last_pack();
+    plan_sums();
+}
 
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::follow(const Parting& parting, const State&, std::vector<double>& history,

@@ -69,4 +69,17 @@ std::array<Vec2<T>, joint_nodes> joint_forces(const JointMotion<T>& motion, cons
     return f;
 }
 
+/// The same where both tractions are k times opening and slip: then an end pulls along D, w k D, and the moment is
+/// none, whichever way the middle line points.
+/// @param stiffness  w k, N/m
+template <class V, class T>
+std::array<Vec2<T>, joint_nodes> elastic_forces(const V& stiffness, const std::array<Vec2<T>, joint_nodes>& u) {
+    std::array<Vec2<T>, joint_nodes> f;
+    for (std::size_t i = 0; i < joint_points; ++i) {
+        f[i] = stiffness * (u[i + 2] - u[i]);
+        f[i + 2] = -f[i];
+    }
+    return f;
+}
+
 }  // namespace gneiss

@@ -109,10 +109,30 @@ void ElementForces::plan() {
         chunk.first_shared = static_cast<std::size_t>(first_shared - begin);
         for (auto node = first; node != last; ++node)
             local[static_cast<std::size_t>(*node)] = static_cast<std::int32_t>((node - first) * bytes_per_pair);
+        chunk.in_a_row = first_shared == last && *(last - 1) - *first + 1 == last - first;
         const auto [nodes, local_nodes] = nodes_of(chunk);
         for (std::size_t i = 0; i < nodes.size(); ++i)
             local_nodes[i].value = static_cast<std::uint16_t>(local[static_cast<std::size_t>(nodes[i])]);
     }
+
+    between_.clear();
+    const auto add_between = [&](std::size_t first, std::size_t last) {
+        for (; first < last; first += parallel_range)
+            between_.emplace_back(first, std::min<std::size_t>(first + parallel_range, last));
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> rows;  // degrees of freedom of chunks in a row
+    for (const Chunk& chunk : chunks_)
+        if (chunk.in_a_row) {
+            const auto first = static_cast<std::size_t>(chunk_nodes_[chunk.first_node]);
+            rows.emplace_back(2 * first, 2 * (first + chunk.last_node - chunk.first_node));
+        }
+    std::ranges::sort(rows);
+    std::size_t behind = 0;
+    for (const auto& [first, last] : rows) {
+        add_between(behind, first);
+        behind = last;
+    }
+    add_between(behind, 2 * n_nodes_);
 
     // slots of shared nodes: by node, and for one node by chunk, which is the order of chunk_nodes_
     std::vector<std::size_t> next(n_nodes_, 0);
@@ -184,8 +204,17 @@ void ElementForces::for_each_chunk(Body body) const {
     }
 }
 
+std::vector<std::int32_t> ElementForces::chunk_of_node() const {
+    std::vector<std::int32_t> chunk_of(n_nodes_, -1);
+    for (std::size_t c = 0; c < chunks_.size(); ++c)
+        for (std::size_t i = chunks_[c].first_node; i < chunks_[c].first_shared; ++i)
+            chunk_of[static_cast<std::size_t>(chunk_nodes_[i])] = static_cast<std::int32_t>(c);
+    return chunk_of;
+}
+
 void ElementForces::force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
-                          std::span<double> history) const {
+                          std::span<double> history, const Company& company) const {
+    const Arrival* arrival = company.arrival;
     const auto evaluation_of = [&](std::size_t block) {
         ElementBlock::Evaluation at = evaluation(block, accepted, trial);
         if (!z.empty() || !history.empty()) {
@@ -196,12 +225,23 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
         return at;
     };
     prepare_scratch();
+    if (arrival != nullptr) {
+        const auto n = static_cast<std::ptrdiff_t>(between_.size());
+#pragma omp parallel for schedule(static) if (n > 1)
+        for (std::ptrdiff_t i = 0; i < n; ++i)
+            arrival->bring(between_[static_cast<std::size_t>(i)].first, between_[static_cast<std::size_t>(i)].second);
+    }
     for_each_chunk([&](std::size_t c, const Chunk& chunk) {
+        if (arrival != nullptr && chunk.in_a_row) {
+            const auto first = static_cast<std::size_t>(chunk_nodes_[chunk.first_node]);
+            arrival->bring(2 * first, 2 * (first + chunk.last_node - chunk.first_node));
+        }
         const ElementBlock::Evaluation at = evaluation_of(chunk.block);
         inverted_[c] =
             chunk_sum(chunk, at, f,
                       [&](const ElementBlock& block, std::size_t first, std::size_t last,
                           const ElementBlock::LocalNodes& local) { return block.add_force(first, last, at, local); });
+        if (company.interactions != nullptr) company.interactions->add_chunk_force(c, accepted, trial, f, history);
     });
     for (std::size_t c = 0; c < chunks_.size(); ++c)
         if (inverted_[c] != ElementBlock::none)
@@ -234,18 +274,24 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
                                         Add add) const {
     const ElementBlock& block = *blocks_[chunk.block];
     const std::size_t n = chunk.last_node - chunk.first_node;
-    double* u = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
-    double *local_f = u + 2 * n, *v = u + 4 * n;
     const std::int32_t* nodes = chunk_nodes_.data() + chunk.first_node;
-    const auto gather = [&](const double* from, double* to) {
-        for (std::size_t i = 0; i < n; ++i) {
-            to[2 * i] = from[2 * nodes[i]];
-            to[2 * i + 1] = from[2 * nodes[i] + 1];
-        }
-    };
-    gather(at.u, u);
-    if (block.viscous()) gather(at.v, v);
-    std::fill(local_f, local_f + 2 * n, 0.0);
+    ElementBlock::LocalNodes local;
+    if (chunk.in_a_row) {
+        const auto first = 2 * static_cast<std::size_t>(*nodes);
+        local = {at.u + first, at.v == nullptr ? nullptr : at.v + first, f.data() + first};
+    } else {
+        double* scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())].data();
+        const auto gather = [&](const double* from, double* to) {
+            for (std::size_t i = 0; i < n; ++i) {
+                to[2 * i] = from[2 * nodes[i]];
+                to[2 * i + 1] = from[2 * nodes[i] + 1];
+            }
+        };
+        local = {scratch, scratch + 4 * n, scratch + 2 * n};
+        gather(at.u, scratch);
+        if (block.viscous()) gather(at.v, scratch + 4 * n);
+    }
+    std::fill(local.f, local.f + 2 * n, 0.0);
     std::ptrdiff_t inverted = ElementBlock::none;
     constexpr std::size_t n_pieces = 16;
     const std::size_t piece = (chunk.last - chunk.first + n_pieces - 1) / n_pieces;
@@ -253,8 +299,9 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
          ++i, pack += piece) {
         // meanwhile the nodes of the next chunk, about as many as this one has, come to a nearer cache
         if (far_) prefetch_nodes(chunk.last_node + n * i / n_pieces, chunk.last_node + n * (i + 1) / n_pieces, at.u, f);
-        inverted = add(block, pack, std::min(pack + piece, chunk.last), ElementBlock::LocalNodes{u, v, local_f});
+        inverted = add(block, pack, std::min(pack + piece, chunk.last), local);
     }
+    if (chunk.in_a_row) return inverted;
     const std::size_t n_own = chunk.first_shared - chunk.first_node;
     const auto scatter = [](const double* from, const std::int32_t* where, std::size_t count, double* to) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -262,8 +309,8 @@ std::ptrdiff_t ElementForces::chunk_sum(const Chunk& chunk, const ElementBlock::
             to[2 * where[i] + 1] = from[2 * i + 1];
         }
     };
-    scatter(local_f, nodes, n_own, f.data());
-    scatter(local_f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
+    scatter(local.f, nodes, n_own, f.data());
+    scatter(local.f + 2 * n_own, chunk_slots_.data() + chunk.first_slot, n - n_own, slot_forces_.data());
     return inverted;
 }
 

@@ -5,6 +5,9 @@
 // small enough for the nearest cache, and adds its elements in ascending order. A node that only one chunk touches then
 // has its force; of a node that several chunks touch, each chunk leaves its part in a slot, and the slots are added in
 // ascending order of chunk.
+//
+// A chunk whose nodes follow each other and that shares none (meshes with joints on every edge) works on them in place.
+// Right before its elements their displacements are brought; right behind them come the joints inside the chunk.
 
 #include <cstdint>
 #include <memory>
@@ -13,6 +16,7 @@
 #include <vector>
 
 #include "model/element_block.hpp"
+#include "model/interaction.hpp"
 #include "system/semi_discrete.hpp"
 
 namespace gneiss {
@@ -45,11 +49,20 @@ public:
     int n_sub_triangles() const { return blocks_.front()->n_sub_triangles(); }
     void initial_memory(std::span<double> z, std::span<double> history) const;
 
+    std::size_t n_chunks() const { return chunks_.size(); }
+    /// The chunk that alone has a node, -1: several have it; shape (n_nodes).
+    std::vector<std::int32_t> chunk_of_node() const;
+
+    /// What goes with the elements, chunk by chunk.
+    struct Company {
+        const Interactions* interactions = nullptr;  ///< add their forces inside a chunk behind its elements
+        const Arrival* arrival = nullptr;            ///< brings the trial's displacements; null: they are there
+    };
     /// @param[out] f  overwritten, N, shape (2 n_nodes)
     /// @param[out] z, history  overwritten if not empty
     /// @throws RecoverableError on an inverted element
     void force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z = {},
-               std::span<double> history = {}) const;
+               std::span<double> history = {}, const Company& company = {nullptr, nullptr}) const;
     void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;
 
@@ -65,6 +78,7 @@ private:
         // its nodes in chunk_nodes_: first those that no other chunk touches, then the shared ones, with slots
         std::size_t first_node = 0, first_shared = 0, last_node = 0;
         std::size_t first_slot = 0;  ///< of the shared ones, in chunk_slots_
+        bool in_a_row = false;       ///< its nodes follow each other, and no other chunk touches them: needs no copies
     };
 
     /// The nodes of a chunk, into nodes_of_chunk_.
@@ -97,6 +111,8 @@ private:
     std::vector<std::int32_t> chunk_nodes_;                  ///< of each chunk in the order of its local numbers
     std::vector<std::int32_t> chunk_slots_;                  ///< where its part of the force of its shared nodes goes
     std::size_t largest_chunk_ = 0;                          ///< nodes
+    /// First and last degrees of freedom of what no chunk in a row has, in pieces for threads.
+    std::vector<std::pair<std::size_t, std::size_t>> between_;
 
     // nodes that more than one chunk touches, ascending, and where their slots begin; by ascending chunk
     std::vector<std::int32_t> shared_nodes_;

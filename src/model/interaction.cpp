@@ -55,6 +55,16 @@ void Interactions::add_force(const State& accepted, const Trial& trial, std::spa
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i]->add_force(trial, part(i, accepted), f, part(i, updated));
 }
 
+void Interactions::take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks) {
+    for (const auto& one : all_) one->take_chunks(chunk_of_node, n_chunks);
+}
+
+void Interactions::add_chunk_force(std::size_t chunk, const State& accepted, const Trial& trial, std::span<double> f,
+                                   std::span<double> updated) const {
+    for (std::size_t i = 0; i < all_.size(); ++i)
+        all_[i]->add_chunk_force(chunk, trial, part(i, accepted), f, part(i, updated));
+}
+
 double Interactions::omega_squared(const State& accepted, const Trial& trial,
                                    std::span<const double> lumped_mass) const {
     double sum = 0;  // eigenvalues of a sum are at most the sum of the largest ones

@@ -40,6 +40,24 @@ public:
     virtual void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                            std::span<double> updated) const = 0;
 
+    /// Elements are evaluated chunk by chunk. What acts between nodes that one chunk alone has can follow it at once,
+    /// while these nodes are in a near cache: where an interaction takes chunks, add_chunk_force() adds that, and
+    /// add_force() the rest.
+    /// @param chunk_of_node  -1: several chunks have it
+    virtual void take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks) {
+        (void)chunk_of_node;
+        (void)n_chunks;
+    }
+    /// As add_force(), for one chunk; called in threads for several chunks at a time.
+    virtual void add_chunk_force(std::size_t chunk, const Trial& trial, std::span<const double> history,
+                                 std::span<double> f, std::span<double> updated) const {
+        (void)chunk;
+        (void)trial;
+        (void)history;
+        (void)f;
+        (void)updated;
+    }
+
     /// Follows a mesh that has come apart: nodes, couplings, and, in an accepted state, its history.
     /// @param history  its own part, at its old size; left at the new one
     /// @param energies  takes what stored energy jumps by, in `splitting`
@@ -113,6 +131,9 @@ public:
     void initial_history(std::span<double> history) const;
     /// @param[out] updated  whole history; empty: not wanted
     void add_force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> updated) const;
+    void take_chunks(std::span<const std::int32_t> chunk_of_node, std::size_t n_chunks);
+    void add_chunk_force(std::size_t chunk, const State& accepted, const Trial& trial, std::span<double> f,
+                         std::span<double> updated) const;
     double omega_squared(const State& accepted, const Trial& trial, std::span<const double> lumped_mass) const;
     void add_stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const;
     void add_stored(const State& state, StoredEnergies& energies) const;

@@ -39,6 +39,7 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
       initial_velocity_(std::move(parts.initial_velocity)),
       mass_(elements_.lumped_mass()),
       smallest_edge_(mesh_size(mesh).smallest_edge) {
+    interactions_.take_chunks(elements_.chunk_of_node(), elements_.n_chunks());
     std::vector<double> switches = constraints_.switch_times();
     for (const auto& term : terms_) {
         const std::vector<double> own = term->switch_times();
@@ -104,14 +105,21 @@ void SolidSystem::constraint_values(double t, double last_event, std::span<doubl
 }
 
 void SolidSystem::force(const State& accepted, const Trial& trial, std::span<double> f) const {
-    elements_.force(accepted, trial, f);
+    elements_.force(accepted, trial, f, {}, {}, {&interactions_, nullptr});
     interactions_.add_force(accepted, trial, f, {});
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
 void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                    std::span<double> history) const {
-    elements_.force(accepted, trial, f, z, history);
+    elements_.force(accepted, trial, f, z, history, {&interactions_, nullptr});
+    interactions_.add_force(accepted, trial, f, history);
+    for (const auto& term : terms_) term->add_force(trial, f);
+}
+
+void SolidSystem::force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
+                                   std::span<double> f, std::span<double> z, std::span<double> history) const {
+    elements_.force(accepted, trial, f, z, history, {&interactions_, &arrival});
     interactions_.add_force(accepted, trial, f, history);
     for (const auto& term : terms_) term->add_force(trial, f);
 }

@@ -6,15 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/flatten.hpp"
 #include "elements/triangle_kernel.hpp"
 #include "model/element_block.hpp"
-
-// Inlines all that a function calls. Not under sanitizers: what they add to it takes minutes to compile.
-#ifdef __SANITIZE_ADDRESS__
-#define GNEISS_FLATTEN
-#else
-#define GNEISS_FLATTEN [[gnu::flatten]]
-#endif
 
 namespace gneiss {
 

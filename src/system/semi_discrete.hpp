@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "system/event.hpp"
 #include "system/state.hpp"
 #include "system/tangent.hpp"
@@ -58,6 +59,16 @@ struct FrequencyBound {
     double of_bonds = 0;      ///< what joints and contact contribute to omega^2, (rad/s)^2
 };
 
+/// Displacements of a trial that are on their way.
+class Arrival {
+public:
+    /// Puts those of the degrees of freedom [first, last) where the trial shows them.
+    virtual void bring(std::size_t first, std::size_t last) const = 0;
+
+protected:
+    ~Arrival() = default;
+};
+
 class SemiDiscrete {
 public:
     virtual ~SemiDiscrete() = default;
@@ -87,6 +98,19 @@ public:
     /// @param[out] z, history  overwritten, shapes (n_internal), (n_history); not the accepted state's own vectors
     virtual void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                   std::span<double> history) const = 0;
+
+    /// force(), or force_and_update() where z and history are not empty, at displacements that are on their way: a
+    /// system that goes through its nodes piece by piece brings a piece right before it needs it, and has it near. Each
+    /// degree of freedom is brought once, by any thread, before f is written there; all are when this returns or
+    /// throws.
+    virtual void force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
+                                  std::span<double> f, std::span<double> z, std::span<double> history) const {
+        parallel_ranges(f.size(), [&](std::size_t first, std::size_t last) { arrival.bring(first, last); });
+        if (z.empty() && history.empty())
+            force(accepted, trial, f);
+        else
+            force_and_update(accepted, trial, f, z, history);
+    }
 
     /// The part of f that additive schemes may leave to their explicit half: what acts from outside and is not stiff.
     /// @param[out] f  overwritten, N, shape (n_dof)
