@@ -71,35 +71,15 @@ std::int64_t cell_of(double x, double cells_per_m) { return static_cast<std::int
 std::span<const ContactCandidate> CellSearch::search(const ContactSurroundings& what, double skin) {
     assert(skin >= 0 && what.points != nullptr);
     candidates_.clear();
-    skin_ = skin;
-    searched_.assign(what.x.begin(), what.x.end());
     if (what.points->size() == 0 || what.triangles.empty()) return candidates_;
     place_points(what);
     measure_triangles(what, skin);
-    choose_numbers(what.triangles.size(), what.points->size());
+    choose_numbers(what);
     render_triangles(what, skin);
     drop_points();
     sweep(what, skin);
     sort_candidates(what.points->size());
     return candidates_;
-}
-
-bool CellSearch::outdated(std::span<const double> x) const {
-    if (x.size() != searched_.size()) return true;
-    const double limit = 0.25 * skin_ * skin_;
-    bool moved = false;
-    const auto n_nodes = static_cast<std::ptrdiff_t>(x.size() / 2);
-#pragma omp parallel for schedule(static) reduction(|| : moved)
-    for (std::ptrdiff_t first = 0; first < n_nodes; first += parallel_range) {
-        const auto last = std::min(first + parallel_range, n_nodes);
-        bool any = false;
-        for (auto k = 2 * static_cast<std::size_t>(first); k < 2 * static_cast<std::size_t>(last); k += 2) {
-            const double dx = x[k] - searched_[k], dy = x[k + 1] - searched_[k + 1];
-            any |= !(dx * dx + dy * dy <= limit);  // NaN counts as moved
-        }
-        moved = moved || any;
-    }
-    return moved;
 }
 
 void CellSearch::place_points(const ContactSurroundings& what) {
@@ -159,7 +139,8 @@ void CellSearch::measure_triangles(const ContactSurroundings& what, double skin)
     for (std::int8_t& level : levels_) level = number[static_cast<std::size_t>(level)];
 }
 
-void CellSearch::choose_numbers(std::size_t n_triangles, std::size_t n_points) {
+void CellSearch::choose_numbers(const ContactSurroundings& what) {
+    const std::size_t n_triangles = what.triangles.size(), n_points = what.points->size();
     double x_min = infinity, x_max = -infinity, y_min = infinity, y_max = -infinity;
     for (std::size_t i = 0; i < n_points; ++i) {
         x_min = std::min(x_min, point_x_[i]);
@@ -176,10 +157,10 @@ void CellSearch::choose_numbers(std::size_t n_triangles, std::size_t n_points) {
     const double finest = cells_per_m_.back();
     const double farthest = std::max({-x_min, x_max, -y_min, y_max});
     if (!(farthest * finest < most_cells)) {
-        const auto at = std::max_element(searched_.begin(), searched_.end(),
+        const auto at = std::max_element(what.x.begin(), what.x.end(),
                                          [](double p, double q) { return std::abs(p) < std::abs(q); });
         throw RecoverableError(fmt::format("contact search: node {} is {:.3g} m from the origin, more than 2^40 cells",
-                                           (at - searched_.begin()) / 2, farthest));
+                                           (at - what.x.begin()) / 2, farthest));
     }
     const auto bits_across = [&](double low, double high) {
         return bits_for(static_cast<std::uint64_t>((high - low) * finest) + 4);

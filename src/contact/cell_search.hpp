@@ -48,11 +48,6 @@ public:
     /// The pairs of the last search.
     std::span<const ContactCandidate> candidates() const { return candidates_; }
 
-    /// True if some node has moved more than half the skin since the last search, or if there has been none for as
-    /// many nodes: search again before contact is evaluated.
-    /// @param x  current positions, m, shape (2 n_nodes)
-    bool outdated(std::span<const double> x) const;
-
 private:
     struct Box {
         double x_min, x_max, y_min, y_max;  ///< with the skin, m
@@ -60,15 +55,12 @@ private:
 
     void place_points(const ContactSurroundings& what);
     void measure_triangles(const ContactSurroundings& what, double skin);
-    void choose_numbers(std::size_t n_triangles, std::size_t n_points);
+    void choose_numbers(const ContactSurroundings& what);
     std::uint64_t cell_number(int level, std::int64_t i, std::int64_t j) const;
     void render_triangles(const ContactSurroundings& what, double skin);
     void drop_points();
     void sweep(const ContactSurroundings& what, double skin);
     void sort_candidates(std::size_t n_points);
-
-    double skin_ = 0;
-    std::vector<double> searched_;  // positions at the last search
 
     std::vector<double> point_x_, point_y_;  // of the contactor points
 

@@ -55,12 +55,6 @@ void Contact::search() {
     moved_ = 0;
     ++n_searches_;
     candidates_.assign(search_.candidates(), bodies_.triangles());
-    first_coupling_.assign(1, 0);
-    for (const ContactCandidate& pair : candidates_.pairs) {
-        std::size_t n = 0;
-        for (const std::int32_t node : nodes_of(pair)) n += bodies_.held(node).size();
-        first_coupling_.push_back(first_coupling_.back() + n * n);
-    }
 
     if (!targets_.empty()) return;  // they are of this mesh
     for (std::size_t t = 0; t < bodies_.triangles().size(); ++t) {
@@ -147,10 +141,7 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
             for (std::size_t slot = 0; slot < contact_slots && former[p].point >= 0; ++slot)
                 if (const std::size_t q = index(former[p].point); old.triangle(q, slot) >= 0)
                     memory.set(p, slot, old.triangle(q, slot), old.at(q, slot));
-        history = std::move(now);
-        find_hits(u);
-        match(history);
-        keep_forces(depths, former, history);
+        history = settled(u, keep_forces(u, depths, former, now));
     }
     energies.splitting += stored(u, history) - before;
 }
@@ -158,9 +149,14 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
 /// Every point in touch goes on with the force that it had: what it is deeper than that takes is its rest depth; where
 /// edges of a crack have made it answer for more length, less depth and slip will do. The anchor follows where bonded
 /// nodes have jumped from the mean of many to that of fewer.
-void Contact::keep_forces(const std::vector<double>& depths, std::span<const FormerPoint> former,
-                          std::span<double> history) {
-    const Memory memory(history, points_.size());
+std::vector<double> Contact::keep_forces(std::span<const double> u, const std::vector<double>& depths,
+                                         std::span<const FormerPoint> former, const std::vector<double>& history) {
+    find_hits(u);
+    match(history);
+    std::vector<double> kept_history = history;
+    const AcceptedMemory old(history, points_.size());
+    const Memory memory(kept_history, points_.size());
+    memory.free_all();  // what has lost its body has lost its spring, which stored() will not find any more
     for (std::size_t hit = 0; hit < hits_.size(); ++hit) {
         if (slots_[hit] < 0) continue;
         const ContactCandidate& pair = candidates_.pairs[index(hits_[hit])];
@@ -171,7 +167,7 @@ void Contact::keep_forces(const std::vector<double>& depths, std::span<const For
         double depth = 0;
         if (known_[hit] != 0) {
             const double share = former[point].share;
-            kept = memory.at(point, slot);
+            kept = old.at(point, slot);
             kept.slip = share * kept.slip;
             kept.slip_limit *= share;
             kept.deepest *= share;
@@ -181,6 +177,18 @@ void Contact::keep_forces(const std::vector<double>& depths, std::span<const For
         kept.rest = std::max(0.0, now.depth - depth);
         memory.set(point, slot, pair.triangle, kept);
     }
+    return kept_history;
+}
+
+/// The history that an evaluation at rest leaves: what springs lose on new tangents, or to less friction, is lost here,
+/// and not once more in the next step.
+std::vector<double> Contact::settled(std::span<const double> u, const std::vector<double>& history) {
+    std::vector<double> after = history;
+    Memory(after, points_.size()).free_all();
+    find_hits(u);
+    match(history);
+    respond(history, after);
+    return after;
 }
 
 std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair) const {
@@ -192,16 +200,17 @@ void Contact::held_by(const ContactCandidate& pair, std::vector<Held>& nodes) co
     nodes.clear();
     const auto bonded_nodes = nodes_of(pair);
     for (std::size_t local = 0; local < n_nodes; ++local) {
-        const auto held = bodies_.held(bonded_nodes[local]);
-        for (const std::int32_t node : held) nodes.push_back({node, local, 1.0 / static_cast<double>(held.size())});
+        for (const std::int32_t node : bodies_.held(bonded_nodes[local]))
+            nodes.push_back({node, local, bodies_.share(node)});
     }
 }
 
 std::vector<std::array<std::int32_t, 2>> Contact::couplings() const {
     std::vector<std::array<std::int32_t, 2>> all;
-    all.reserve(first_coupling_.back());
     std::vector<Held> nodes;
+    first_coupling_.clear();
     for (const ContactCandidate& pair : candidates_.pairs) {
+        first_coupling_.push_back(all.size());
         held_by(pair, nodes);
         for (const Held& a : nodes)
             for (const Held& b : nodes) all.push_back({a.node, b.node});
@@ -254,16 +263,16 @@ void Contact::bound_stiffness(std::span<const double> u) const {
     }
 }
 
-// A bonded node that holds n others has the n-th part of its bound at each of them: its displacement is their mean, and
-// the square of a mean is at most the mean of squares.
+// The nodes that a bonded one holds share its bound by their masses: its displacement is their mean with these weights,
+// and the square of a mean is at most the mean of squares. So the bound over the mass is that of the bonded node.
 double Contact::omega_squared(const Trial& trial, std::span<const double>, std::span<const double> lumped_mass) const {
     bound_stiffness(bonded(trial.u));
     double largest = 0;
     for (std::size_t node = 0; node < bound_.size(); ++node) {
-        const auto held = bodies_.held(static_cast<std::int32_t>(node));
-        for (const std::int32_t one : held)
-            largest =
-                std::max(largest, bound_[node] / (static_cast<double>(held.size()) * lumped_mass[2 * index(one)]));
+        double mass = 0;
+        for (const std::int32_t one : bodies_.held(static_cast<std::int32_t>(node)))
+            mass += lumped_mass[2 * index(one)];
+        largest = std::max(largest, bound_[node] / mass);
     }
     return largest;
 }

@@ -108,7 +108,9 @@ private:
         double share;
     };
     void held_by(const ContactCandidate& pair, std::vector<Held>& nodes) const;
-    void keep_forces(const std::vector<double>& depths, std::span<const FormerPoint> former, std::span<double> history);
+    std::vector<double> keep_forces(std::span<const double> u, const std::vector<double>& depths,
+                                    std::span<const FormerPoint> former, const std::vector<double>& history);
+    std::vector<double> settled(std::span<const double> u, const std::vector<double>& history);
     [[noreturn]] void refuse_deep(const Trial& trial, std::size_t hit) const;
 
     Options options_;
@@ -118,10 +120,10 @@ private:
     CandidatePacks candidates_;
     std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
     std::size_t n_searches_ = 0;
-    double moved_ = 0;                         ///< largest way of a node since then, at the last look, m
-    std::vector<TargetConstants> targets_;     ///< by triangle
-    std::vector<PointConstants> points_;       ///< by contactor point
-    std::vector<std::size_t> first_coupling_;  ///< of each candidate; and of one behind the last
+    double moved_ = 0;                                 ///< largest way of a node since then, at the last look, m
+    std::vector<TargetConstants> targets_;             ///< by triangle
+    std::vector<PointConstants> points_;               ///< by contactor point
+    mutable std::vector<std::size_t> first_coupling_;  ///< of each candidate, in couplings()
 
     // scratch of one evaluation
     mutable std::vector<double> u_, f_;        ///< of the bonded nodes, m, N, where they are not the mesh's

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -25,28 +24,6 @@ std::vector<std::int32_t> counted(std::size_t n) {
 std::vector<std::int32_t> originals(const PartedMesh& start) {
     if (!start.original_of.empty()) return {start.original_of.begin(), start.original_of.end()};
     return counted(start.mesh.n_nodes());
-}
-
-/// Numbers, from 0, of the sets of nodes that the elements of a mesh connect, per node.
-std::pair<std::vector<std::int32_t>, std::int32_t> connected_sets(const Mesh& mesh) {
-    // nodes of one set have one root
-    std::vector<std::int32_t> root = counted(mesh.n_nodes());
-    const auto find = [&](std::int32_t node) {
-        while (root[index(node)] != node) node = root[index(node)] = root[index(root[index(node)])];
-        return node;
-    };
-    for (std::size_t e = 0; e < mesh.n_elements(); ++e)
-        for (int k = 1; k < mesh.nodes_per_element(); ++k) {
-            const auto [low, high] = std::minmax({find(mesh.element(e)[0]), find(mesh.element(e)[k])});
-            root[index(high)] = low;
-        }
-    std::vector<std::int32_t> set(root.size(), -1);
-    std::int32_t n_sets = 0;
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(root.size()); ++node) {
-        const std::int32_t first = find(node);  // never higher than the node
-        set[index(node)] = first == node ? n_sets++ : set[index(first)];
-    }
-    return {std::move(set), n_sets};
 }
 
 /// Triangles of a mesh, counter-clockwise.
@@ -97,7 +74,9 @@ ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> la
       bonded_mesh_(put_together(start, originals(start))),
       original_connectivity_(bonded_mesh_.connectivity),
       bonded_(bonded_mesh_),
-      potential_(bonded_mesh_.nodes, triangles_of(bonded_mesh_), cap) {
+      potential_(bonded_mesh_.nodes, triangles_of(bonded_mesh_), cap),
+      masses_(start.masses.begin(), start.masses.end()) {
+    if (masses_.empty()) masses_.assign(start.mesh.connectivity.size(), 1.0);
     find_bodies(layers);
     add_edges(contour(bonded_mesh_));
     fail(start.failed);
@@ -105,19 +84,28 @@ ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> la
 }
 
 void ContactBodies::find_bodies(std::span<const double> layers) {
+    // nodes of one body have one root
+    std::vector<std::int32_t> root = counted(bonded_mesh_.n_nodes());
+    const auto find = [&](std::int32_t node) {
+        while (root[index(node)] != node) node = root[index(node)] = root[index(root[index(node)])];
+        return node;
+    };
+    for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e)
+        for (int k = 1; k < bonded_mesh_.nodes_per_element(); ++k) {
+            const auto [low, high] = std::minmax({find(bonded_mesh_.element(e)[0]), find(bonded_mesh_.element(e)[k])});
+            root[index(high)] = low;
+        }
+    body_of_original_.assign(root.size(), -1);
     std::int32_t n_bodies = 0;
-    std::tie(body_of_original_, n_bodies) = connected_sets(bonded_mesh_);
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(root.size()); ++node) {
+        const std::int32_t first = find(node);  // never higher than the node
+        body_of_original_[index(node)] = first == node ? n_bodies++ : body_of_original_[index(first)];
+    }
     compliance_.assign(index(n_bodies), std::numeric_limits<double>::infinity());
     for (std::size_t e = 0; e < bonded_mesh_.n_elements(); ++e) {
         double& least = compliance_[index(body_of_original_[index(bonded_mesh_.element(e)[0])])];
         least = std::min(least, layers[e]);
     }
-}
-
-void ContactBodies::find_parts() {
-    const std::vector<std::int32_t> set = connected_sets(bonded_mesh_).first;
-    part_.resize(bonded_mesh_.n_elements());
-    for (std::size_t e = 0; e < part_.size(); ++e) part_[e] = set[index(bonded_mesh_.element(e)[0])];
 }
 
 double ContactBodies::least_compliance() const { return *std::ranges::min_element(compliance_); }
@@ -169,11 +157,11 @@ std::span<const double> ContactBodies::displacements(std::span<const double> u, 
             const auto all = held(static_cast<std::int32_t>(node));
             double x = 0, y = 0;
             for (const std::int32_t one : all) {
-                x += u[2 * index(one)];
-                y += u[2 * index(one) + 1];
+                x += share(one) * u[2 * index(one)];
+                y += share(one) * u[2 * index(one) + 1];
             }
-            scratch[2 * node] = x / static_cast<double>(all.size());
-            scratch[2 * node + 1] = y / static_cast<double>(all.size());
+            scratch[2 * node] = x;
+            scratch[2 * node + 1] = y;
         }
     });
     return scratch;
@@ -184,10 +172,9 @@ void ContactBodies::spread(std::span<const double> forces, std::span<double> f) 
         for (std::size_t node = first; node < last; ++node) {
             const double x = forces[2 * node], y = forces[2 * node + 1];
             if (x == 0 && y == 0) continue;
-            const auto all = held(static_cast<std::int32_t>(node));
-            for (const std::int32_t one : all) {
-                f[2 * index(one)] += x / static_cast<double>(all.size());
-                f[2 * index(one) + 1] += y / static_cast<double>(all.size());
+            for (const std::int32_t one : held(static_cast<std::int32_t>(node))) {
+                f[2 * index(one)] += share(one) * x;
+                f[2 * index(one) + 1] += share(one) * y;
             }
         }
     });
@@ -210,8 +197,16 @@ void ContactBodies::refresh(const Mesh& mesh) {
     for (std::size_t node = 0; node < bonded_of_.size(); ++node)
         held_[index(next[index(bonded_of_[node])]++)] = static_cast<std::int32_t>(node);
 
+    std::vector<double> mass(mesh.n_nodes(), 0.0), whole_mass(n_nodes(), 0.0);
+    for (std::size_t k = 0; k < mesh.connectivity.size(); ++k) {
+        mass[index(mesh.connectivity[k])] += masses_[k];
+        whole_mass[index(bonded_mesh_.connectivity[k])] += masses_[k];
+    }
+    share_.resize(mesh.n_nodes());
+    for (std::size_t node = 0; node < share_.size(); ++node)
+        share_[node] = held(bonded_of_[node]).size() == 1 ? 1 : mass[node] / whole_mass[index(bonded_of_[node])];
+
     triangles_ = triangles_of(bonded_mesh_);
-    find_parts();
     reference_ = flat(bonded_mesh_.nodes);
     mesh_reference_ = flat(mesh.nodes);
     const std::vector<BoundaryEdge> boundary = edges_of(bonded_mesh_);

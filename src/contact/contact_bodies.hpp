@@ -5,9 +5,9 @@
 // Three numberings of nodes. Of the mesh as it is, in which forces act. Original: before any node was copied; the
 // penetration potential speaks it, because copies stand at one place of the reference shape. Bonded: of a mesh whose
 // sides open when their cohesion has failed, not before. Contact itself speaks the bonded one: a bonded node stands at
-// the mean of the mesh's nodes that it holds, and what pushes it pushes them alike. So joints that open or close a
-// little leave no gaps and no overlaps in a body: a point inside is in exactly one of its triangles, and the potential
-// that it feels has no jump.
+// the centre of mass of the mesh's nodes that it holds, and what pushes it gives them all the same acceleration. So
+// joints that open or close a little leave no gaps and no overlaps in a body: a point inside is in exactly one of its
+// triangles, and the potential that it feels has no jump. It does not move either where a node is copied.
 
 #include <array>
 #include <cstdint>
@@ -26,6 +26,8 @@ struct PartedMesh {
     const Mesh& mesh;
     std::span<const std::int32_t> original_of = {};  ///< InnerSides::original_of(); empty: it is whole
     std::span<const std::int32_t> failed = {};       ///< inner sides that nothing holds
+    std::span<const double> masses =
+        {};  ///< of every element at its nodes, kg, shape of the connectivity; empty: equal
 };
 
 class ContactBodies {
@@ -54,7 +56,9 @@ public:
         const auto first = held_.begin() + first_held_[static_cast<std::size_t>(node)];
         return {first, held_.begin() + first_held_[static_cast<std::size_t>(node) + 1]};
     }
-    /// Mean displacements of the bonded nodes, m.
+    /// Part of the mass of its bonded node that a node of the mesh has.
+    double share(std::int32_t mesh_node) const { return share_[static_cast<std::size_t>(mesh_node)]; }
+    /// Displacements of the bonded nodes, m.
     /// @param u        of the mesh, m, shape (2 n_mesh_nodes)
     /// @param scratch  may hold what is returned, shape (2 n_nodes); otherwise that is u
     std::span<const double> displacements(std::span<const double> u, std::vector<double>& scratch) const;
@@ -69,8 +73,6 @@ public:
     std::span<const std::array<std::int32_t, 3>> triangles() const { return triangles_; }
     const TrianglePotential& potential(std::size_t triangle) const { return potential_.of_triangle(triangle); }
     const ContactorPoints& points() const { return points_; }
-    /// Which part of what holds together a triangle belongs to, from 0.
-    std::int32_t part(std::int32_t triangle) const { return part_[static_cast<std::size_t>(triangle) / n_sub_]; }
 
     /// Contactor points between nodes of the mesh as it is: what meets a wall.
     const ContactorPoints& mesh_points() const { return mesh_points_; }
@@ -112,7 +114,6 @@ private:
 
     static Mesh put_together(const PartedMesh& start, std::span<const std::int32_t> original);
     void find_bodies(std::span<const double> layers);
-    void find_parts();
     void add_edges(std::span<const BoundaryEdge> contour);
     void fail(std::span<const std::int32_t> sides);
     void refresh(const Mesh& mesh);
@@ -130,9 +131,10 @@ private:
     std::vector<double> reference_, boundary_length_;
     std::vector<std::array<std::int32_t, 3>> triangles_;
     ContactorPoints points_;
-    std::vector<std::int32_t> part_;  ///< per element
     // bonded nodes and those of the mesh
     std::vector<std::int32_t> bonded_of_, held_, first_held_;
+    std::vector<double> masses_;  ///< PartedMesh::masses
+    std::vector<double> share_;
     bool whole_ = true;
     ContactorPoints mesh_points_;
     std::vector<double> mesh_reference_;

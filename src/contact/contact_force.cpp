@@ -114,8 +114,7 @@ double Contact::match(std::span<const double> history) const {
             taken[slot] = true;
             kept[slot] = known;
         };
-        // the same triangle, else one at it, else one that holds together with it, else a slot whose body the point has
-        // left
+        // the same triangle, else one at it, else a slot whose body the point has left
         std::size_t n_left = last - first;
         const auto for_each_choice = [&](auto good, bool known) {
             if (n_left == 0) return;
@@ -128,9 +127,6 @@ double Contact::match(std::span<const double> history) const {
         };
         for_each_choice([](std::int32_t old, std::int32_t now) { return old == now; }, true);
         for_each_choice([&](std::int32_t old, std::int32_t now) { return old >= 0 && adjacent(old, now); }, true);
-        for_each_choice(
-            [&](std::int32_t old, std::int32_t now) { return old >= 0 && bodies_.part(old) == bodies_.part(now); },
-            true);
         for_each_choice([](std::int32_t, std::int32_t) { return true; }, false);
         for (std::size_t s = 0; s < contact_slots; ++s) {
             const auto triangle = static_cast<std::int32_t>(before[s][point]);

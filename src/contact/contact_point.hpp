@@ -173,7 +173,8 @@ ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Ve
     const Vec2<V> reference_g{(rise_1 * edge_2.y - rise_2 * edge_1.y) * per_reference_area,
                               (rise_2 * edge_1.x - rise_1 * edge_2.x) * per_reference_area};
     const V depth = plain(result.depth);
-    result.too_deep = plain(phi) >= target.reach;
+    const auto pressed = depth > V(0.0);
+    result.too_deep = (plain(phi) >= target.reach) & pressed;
 
     // normal force: along p_n while the depth is the deepest so far, along p_n/e^2 below
     if constexpr (tangential == Tangential::none) {
@@ -225,7 +226,7 @@ ContactResponse<T, V> contact_response(const Vec2<T>& point, const std::array<Ve
     result.next.slip = s_held * tangent;
     result.next.anchor = Vec2<V>{plain(place.x), plain(place.y)} - result.next.slip;
     result.next.slip_limit = l;
-    result.next.deepest = plain(deepest);
+    result.next.deepest = choose(pressed, plain(deepest), V(0.0));  // it has come loose: the next impact begins anew
     const V still = choose(plain(phi) > V(0.0), plain(phi), V(0.0));
     result.next.rest = choose(still < old.rest, still, old.rest);
     return result;

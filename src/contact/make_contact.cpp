@@ -34,6 +34,23 @@ std::vector<double> layers_of(const Mesh& mesh, std::span<const std::unique_ptr<
     return layers;
 }
 
+/// PartedMesh::masses.
+std::vector<double> masses_of(const Mesh& mesh, std::span<const std::unique_ptr<ElementBlock>> blocks) {
+    const auto n = static_cast<std::size_t>(mesh.nodes_per_element());
+    std::vector<double> masses(mesh.connectivity.size()), own(2 * mesh.n_nodes(), 0.0);
+    for (const auto& block : blocks)
+        for (std::size_t local = 0; local < block->n_elements(); ++local) {
+            block->add_mass(local, own);
+            const auto e = static_cast<std::size_t>(block->element(local));
+            for (std::size_t k = 0; k < n; ++k) {
+                const std::size_t x = 2 * static_cast<std::size_t>(mesh.element(e)[k]);
+                masses[n * e + k] = own[x];
+                own[x] = own[x + 1] = 0;
+            }
+        }
+    return masses;
+}
+
 double shortest_edge(const Mesh& mesh) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const BoundaryEdge& edge : contour(mesh))
@@ -69,8 +86,9 @@ std::unique_ptr<Contact> make_contact(const PartedMesh& start, std::span<const s
     const std::vector<double> layers = contact.penalty > 0
                                            ? std::vector<double>(start.mesh.n_elements(), 0.5 / contact.penalty)
                                            : layers_of(start.mesh, blocks, contact.penalty_factor);
+    const std::vector<double> masses = masses_of(start.mesh, blocks);
     auto made = std::make_unique<Contact>(
-        start, layers, contact.potential_cap,
+        PartedMesh{start.mesh, start.original_of, start.failed, masses}, layers, contact.potential_cap,
         Contact::Options{solid.thickness, contact.friction, contact.restitution, contact.tangential_factor,
                          contact.skin * shortest_edge(start.mesh), comes_apart});
     refuse_overlaps(*made);

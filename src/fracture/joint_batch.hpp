@@ -36,8 +36,9 @@ class JointBatch final : public Joints {
     /// Whether there is a range in which nothing happens to a joint, and it is a pair of springs.
     static constexpr bool has_elastic_range = requires { &Law::elastic_reach; }
     &&!extrinsic;
-    /// Slip over length past which the ends of a failed joint do not lie opposite each other any more.
-    static constexpr double far_slip = 0.25;
+    /// Way of an end over the length past which a failed joint no longer speaks for its faces, which contact takes for
+    /// one until then.
+    static constexpr double far_way = 0.1;
 
 public:
     /// @param inner, later  of extrinsic joints: those that come into being where sides open

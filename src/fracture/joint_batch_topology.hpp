@@ -193,12 +193,12 @@ std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& 
     const auto lets_go = [&](std::size_t joint) {
         if (untouched(history, joint / pack_width) || !(history[entry(joint, failure_row)] > 0)) return false;
         const auto motion = motion_of(joint, accepted.u);
-        bool open = true, slid = true;
+        bool open = true, far = false;
         for (std::size_t i = 0; i < joint_points; ++i) {
             open = open && motion.opening[i] >= 0;
-            slid = slid && std::abs(motion.slip[i]) > far_slip * motion.length;
+            far = far || std::max(motion.opening[i], std::abs(motion.slip[i])) > far_way * motion.length;
         }
-        return open || slid;
+        return open || far;
     };
     std::vector<std::int32_t> sides;
     for (std::size_t joint = 0; joint < n_joints_; ++joint) {

@@ -68,8 +68,8 @@ public:
 
     /// Whether any joint has failed and has not been handed over.
     virtual bool any_failed(std::span<const double> history) const = 0;
-    /// Sides all of whose joints have failed and let go: open at both ends, or slid by more than a part of their
-    /// length, past which the two ends no longer lie opposite each other. Ascending.
+    /// Sides all of whose joints have failed and let go: open at both ends, or with an end that has opened or slid by
+    /// more than a part of the length, past which the ends no longer lie opposite each other. Ascending.
     virtual std::vector<std::int32_t> sides_let_go(const State& accepted, std::span<const double> history) const = 0;
     /// From here on there is no force between these sides.
     /// @return what was still stored there, J

@@ -46,18 +46,6 @@ BENCHMARK(search_bed)
     ->ArgNames({"triangles", "threads"})
     ->Unit(::benchmark::kMillisecond);
 
-void outdated(::benchmark::State& state) {
-    omp_set_num_threads(1);
-    const test::Soup soup = test::bed(static_cast<int>(state.range(0)), 1);
-    CellSearch search;
-    search.search(soup.surroundings(), skin);
-    for (auto _ : state) ::benchmark::DoNotOptimize(search.outdated(soup.x));
-    state.counters["ns/triangle"] =
-        Counter(1e-9 * static_cast<double>(soup.triangles.size()) * static_cast<double>(state.iterations()),
-                Counter::kIsRate | Counter::kInvert);
-}
-BENCHMARK(outdated)->Arg(1000)->Arg(1000000)->ArgName("triangles")->Unit(::benchmark::kMicrosecond);
-
 /// Least squares of log(time) against log(size) over sizes 1e3 to 1e6, half a decade apart; the fastest of some runs
 /// each.
 void search_slope(::benchmark::State& state) {

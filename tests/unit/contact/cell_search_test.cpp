@@ -173,29 +173,10 @@ TEST(CellSearch, PairsWithinHalfTheSkin_StayComplete) {
         soup.x[k] += 0.4999 * skin * std::cos(direction);
         soup.x[k + 1] += 0.4999 * skin * std::sin(direction);
     }
-    EXPECT_FALSE(search.outdated(soup.x));
     const auto listed = search.candidates();
     const Candidates touching = within(soup, 0);
     EXPECT_TRUE(std::includes(listed.begin(), listed.end(), touching.begin(), touching.end()));
     EXPECT_NE(searched(soup, skin), Candidates(listed.begin(), listed.end()));  // the motion did matter
-}
-
-TEST(CellSearch, OneNodeBeyondHalfTheSkin_Outdates) {
-    Soup soup = bed(5000, 1);  // several ranges of nodes
-    CellSearch search;
-    EXPECT_TRUE(search.outdated(soup.x));
-    search.search(soup.surroundings(), 0.2);
-    EXPECT_FALSE(search.outdated(soup.x));
-    for (const std::size_t node : {std::size_t{0}, soup.x.size() / 4, soup.x.size() / 2 - 1}) {
-        std::vector<double> moved = soup.x;
-        moved[2 * node + 1] -= 0.0999;
-        EXPECT_FALSE(search.outdated(moved));
-        moved[2 * node] += 0.01;
-        EXPECT_TRUE(search.outdated(moved));
-        moved[2 * node] = NAN;
-        EXPECT_TRUE(search.outdated(moved));
-    }
-    EXPECT_TRUE(search.outdated(std::span(soup.x).first(8)));
 }
 
 TEST(CellSearch, AnyNumberOfThreads_GivesTheSameList) {

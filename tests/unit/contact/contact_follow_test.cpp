@@ -227,6 +227,65 @@ TEST_P(Bonded, WhatOverlapsAsItFails_IsNotPushedApart) {
     EXPECT_GT(stored(contact, closer, history), after);
 }
 
+TEST_P(Bonded, WhatFailsElsewhere_ChangesNoForce_AndNothingIsBookedTwice) {
+    // sides of the upper body that do not come near the lower one
+    Contact::Options options = rough();
+    options.comes_apart = true;
+    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, options);
+    std::vector<double> history(contact.n_history());
+    contact.initial_history(history);
+    history = evaluate(contact, state, history).history;
+    for (double& u : state.u) u *= 1.05;  // springs are drawn
+    const Evaluation before = evaluate(contact, state, history);
+    history = before.history;
+    const auto is_high = [&](std::int32_t side) {
+        const ElementSide& left = sides.sides()[static_cast<std::size_t>(side)].left;
+        const std::int32_t* nodes = whole.element(static_cast<std::size_t>(left.element));
+        return std::ranges::all_of(side_nodes(whole.kind, left.side),
+                                   [&](int k) { return whole.nodes[static_cast<std::size_t>(nodes[k])][1] > 1.4; });
+    };
+    std::vector<std::int32_t> high;
+    std::ranges::copy_if(all, std::back_inserter(high), is_high);
+    ASSERT_GE(high.size(), 4u);
+    PathEnergies energies;
+    contact.follow({mesh, {}, {}, {}, high}, state, history, energies);
+    const Evaluation after = evaluate(contact, state, history);
+    const double largest = std::abs(*std::ranges::max_element(before.f, {}, [](double f) { return std::abs(f); }));
+    for (std::size_t node = 0; node < mesh.n_nodes(); ++node)
+        for (const std::size_t i : {2 * node, 2 * node + 1})
+            if (sides.original_of()[node] < n_lower) {
+                EXPECT_NEAR(after.f[i], before.f[i], 1e-9 * largest);
+            }
+    // friction and restitution: the state is the same, so is what has been lost
+    EXPECT_NEAR(after.history[0], history[0], 1e-9 * stored(contact, state, history));
+    EXPECT_NEAR(after.history[1], history[1], 1e-9 * stored(contact, state, history));
+}
+
+TEST(FormerPoints, OfACopiedNode_AreThatNode_WithThePartOfTheLengthThatWasThere) {
+    // edges 0-1 and 1-2 of length 1; then node 1 is copied to 3, and an edge 3-4 of length 2 comes beside them
+    const std::vector<Point2> before{{0, 0}, {1, 0}, {2, 0}}, after{{0, 0}, {1, 0}, {2, 0}, {1, 0}, {1, -2}};
+    const std::vector<BoundaryEdge> old_edges{{0, 1, 0}, {1, 2, 0}}, edges{{0, 1, 0}, {3, 2, 0}, {3, 4, 0}};
+    const ContactorPoints old = contactor_points(old_edges, before), now = contactor_points(edges, after);
+    const std::vector<FormerPoint> former = former_points(old, now);
+    ASSERT_EQ(former.size(), now.size());
+    for (std::size_t p = 0; p < now.size(); ++p) {
+        const bool is_node = now.a[p] == now.b[p];
+        const std::int32_t node = now.a[p];
+        if (is_node && node == 4) {
+            EXPECT_EQ(former[p].point, -1);
+        } else if (is_node) {
+            EXPECT_EQ(old.a[static_cast<std::size_t>(former[p].point)], node == 3 ? 1 : node);
+            // 1/6 of 1 beside 1/6 of 2
+            EXPECT_NEAR(former[p].share, node == 3 ? 1.0 / 3 : 1.0, 1e-15);
+        }
+    }
+    // the lengths that were there add up to those of the old points
+    double kept = 0, had = 0;
+    for (std::size_t p = 0; p < now.size(); ++p) kept += former[p].share * now.length[p];
+    for (const double length : old.length) had += length;
+    EXPECT_NEAR(kept, had, 1e-15);
+}
+
 TEST_P(Bonded, SideThatStandsAlone_ComesApartWithItsNeighbour) {
     const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
     const ContactBodies& bodies = contact.bodies();

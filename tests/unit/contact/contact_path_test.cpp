@@ -113,6 +113,33 @@ TEST(ContactPath, RestDepth_GoesDownWithTheOverlap_AndHoldsNoEnergy) {
     EXPECT_NEAR(strip.go_to({0.3, -0.2}).stored_normal, 0.5 * k * 0.08 * 0.08, round_off * k);
 }
 
+TEST(ContactPath, ImpactsOnARestDepth_AllReturnTheirPartOfTheEnergy) {
+    ContactLaw<double> lossy = law;
+    lossy.returned = 0.25;
+    Strip strip(1);
+    strip.history.in_touch = 1;
+    strip.history.rest = 0.2;
+    for (int impact = 0; impact < 2; ++impact) {
+        const double energy = 0.5 * law.normal_stiffness * 0.1 * 0.1;
+        // coming loose has taken a billionth from the rest depth
+        EXPECT_NEAR(strip.go_to({0.3, -0.3}, lossy).dissipated_normal, 0.75 * energy,
+                    law.normal_stiffness * 0.1 * 1e-9);
+        strip.go_to({0.3, -0.2 + 1e-9}, lossy);
+    }
+}
+
+TEST(ContactPath, OverlapThatRests_IsNotTooDeep) {
+    Strip strip(1);
+    strip.history.in_touch = 1;
+    strip.history.rest = 0.9;
+    const ContactTarget<double> shallow{{V2{0, -1}, V2{1, -1}, V2{1, 0}}, {1, 1, 0}, 0, 0.5};
+    const auto at = [&](double y) {
+        return contact_response(V2{0.9, y}, shallow.reference, shallow, law, strip.history);
+    };
+    EXPECT_FALSE(at(-0.8).too_deep);
+    EXPECT_TRUE(at(-0.95).too_deep);
+}
+
 TEST(ContactPath, StepsOfAStraightPath_DoNotChangeTheDissipation) {
     // Depth and way grow together: stick, slide, and less depth again while sliding, in any number of steps.
     for (const V2& end : {V2{0.9, -0.4}, V2{0.9, -0.02}, V2{0.48, -0.11}}) {
