@@ -130,8 +130,8 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     }
     settle(system, state);
     for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];
-    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched, or of what held
-    // together until now
+    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched, or of what
+    // held together until now
     if (why == StartReason::reinitialise) state.path.external_work -= acceleration_measure() - measure_before;
     if (why == StartReason::resize) state.path.splitting -= acceleration_measure() - measure_before;
 }

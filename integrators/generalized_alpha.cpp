@@ -87,6 +87,7 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     change_.assign(free_->n(), 0.0);
     solver_ = make_linear_solver(options_.solver, tangent.symmetric());
     if (free_->n() > 0) solver_->analyse(free_->pattern());
+    factorised_dt_ = 0;
     motion_.bind(system, omega_);
 }
 
@@ -256,6 +257,7 @@ void GeneralizedAlpha::solve(const SemiDiscrete& system, const State& state, dou
         const bool stalled = iteration > 0 && left > progress * before;
         if (std::abs(factorised_dt_ - dt) > same * dt || stalled) factorise(system, state, dt);
         before = left;
+        ++counts_.iterations;
         solver_->solve(change_, change_);
         // round-off: what is left moves no digit of the step
         constexpr double eps = 1e-14;

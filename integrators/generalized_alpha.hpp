@@ -65,6 +65,7 @@ public:
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions() const override { return reactions_; }
+    WorkCounts work() const override { return {counts_.factorisations, counts_.factorisations, counts_.iterations}; }
     double matrix_bytes() const override;
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;

@@ -37,6 +37,7 @@ public:
     std::vector<StepColumn> step_columns() const final {
         return {{"iterations"}, {"factorisations"}, {"linear_iterations"}, {"force_evaluations"}, {"unbalanced"}};
     }
+    WorkCounts work() const final { return {counts_.factorisations, counts_.factorisations, counts_.iterations}; }
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     /// Nothing moves: zero.

@@ -29,13 +29,17 @@ public:
     };
     struct Counts {
         std::size_t steps = 0, rates = 0, rejected = 0;
-        std::size_t linearisations = 0, factorisations = 0;
+        std::size_t linearisations = 0, factorisations = 0, solves = 0;
     };
 
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const final;
     std::span<const double> reactions() const final { return reactions_; }
+    WorkCounts work() const final {
+        const Counts all = counts();
+        return {all.linearisations, all.factorisations, all.solves};
+    }
     double matrix_bytes() const final { return newton_ ? newton_->bytes() : 0; }
     IntegratorMemory save() const final;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) final;

@@ -28,6 +28,7 @@ MAY_INCLUDE = {
     "integrators": ["src/base", "src/system", "src/linear"],
     "src/io/deck": ["src/base", "materials/elastic_constants.hpp", "src/model/formula.hpp", *OPTIONS],
     "src/io/output": ["src/base"],
+    "src/io/report": ["src/base"],
     "src/app": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model", "src/contact",
                 "src/fracture", "integrators", "src/io"],
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/check_case.hpp"
+#include "app/compare_schemes.hpp"
 #include "app/large_arrays.hpp"
 #include "app/matrices.hpp"
 #include "app/run_case.hpp"
@@ -77,6 +78,8 @@ std::vector<std::string> words_of(int argc, char** argv) {
 /// @return exit code
 int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
     const RunArguments& run = arguments.run;
+    // before threads are thought of: each run of a comparison is a process of its own
+    if (app.got_subcommand("compare")) return compare_schemes(run, std::filesystem::canonical("/proc/self/exe"));
     if (app.got_subcommand("list")) {
         list(fmt::format("{}", fmt::join(arguments.topic, " ")));
         return exit_code::done;
@@ -105,6 +108,11 @@ int main(int argc, char** argv) {
     add_case_options(*run_command, run);
     add_results_options(*run_command, run, "go on from a checkpoint.h5");
     run_command->add_flag("--quiet", run.quiet, "print nothing but errors");
+    CLI::App* compare_command =
+        app.add_subcommand("compare", "run a case under the schemes of its [compare]; table, work and precision");
+    add_case_options(*compare_command, run);
+    compare_command->add_option("--out", run.out, "folder of the results [results/CASE-compare]")->type_name("DIR");
+    compare_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* check_command =
         app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");
     add_case_options(*check_command, run);
@@ -124,7 +132,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ExtrasError& error) {
         if (!app.get_subcommands().empty()) return app.exit(error), exit_code::bad_input;
         std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1],
-                                 suggestion(argv[1], {"run", "check", "matrices", "list"}));
+                                 suggestion(argv[1], {"run", "compare", "check", "matrices", "list"}));
         return exit_code::bad_input;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;

@@ -10,6 +10,7 @@
 #include "app/make_integrator.hpp"
 #include "app/run_summary.hpp"
 #include "app/schedule.hpp"
+#include "app/state_series.hpp"
 #include "app/tables.hpp"
 #include "app/threads.hpp"
 #include "base/errors.hpp"
@@ -82,6 +83,7 @@ private:
     State state_;
     RunProgress progress_;
     std::size_t first_step_ = 0;  ///< of this part of the run
+    std::size_t n_rejected_ = 0, n_force_ = 0;
     double last_dt_ = 0, balance_error_ = 0;
     bool resumed_ = false, begun_ = false;
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
@@ -90,6 +92,7 @@ private:
     std::optional<CsvSeries> history_file_, probes_file_, reactions_file_, steps_file_;
     std::optional<FieldFrames> frames_;
     std::optional<CrackFrames> cracks_;
+    std::optional<StateSeries> states_;
     std::optional<Progress> bar_;
 };
 
@@ -128,7 +131,8 @@ void Run::open_results() {
     make_folder(out_);
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)
-        for (const char* name : {"checkpoint.h5", "probes.csv", "reactions.csv", "load_steps.csv", "summary.json"})
+        for (const char* name :
+             {"checkpoint.h5", "probes.csv", "reactions.csv", "load_steps.csv", "states.h5", "summary.json"})
             fs::remove(out_ / name);
     log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
     log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
@@ -150,6 +154,7 @@ void Run::open_results() {
         steps_file_.emplace(out_ / "load_steps.csv", step_columns(*case_.integrator), restart_time);
     frames_.emplace(out_, *case_.mesh, restart_time);
     if (case_.cracking != nullptr) cracks_.emplace(out_, *case_.cracking, restart_time);
+    if (case_.options.output.states > 0) states_.emplace(out_ / "states.h5", *case_.mesh, restart_time);
 }
 
 EnergyLedger Run::ledger() const {
@@ -189,17 +194,21 @@ void Run::write_checkpoint() {
     // A checkpoint must not be ahead of the tables: after a crash, a restart could not bring the missing rows back.
     for_each_table([](CsvSeries& table) { table.flush(); });
     if (cracks_) cracks_->flush();
+    if (states_) states_->save();
     save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_);
 }
 
 bool Run::after_step(const StepReport& step) {
     if (progress_.step == first_step_) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
     progress_.step += step.n_steps;
+    n_rejected_ += step.n_rejected;
+    n_force_ += step.n_force;
     last_dt_ = step.dt;
     if (!step.warning.empty()) log_->warn("{}", step.warning);
     if (steps_file_) steps_file_->row(step_row(step), {step.rejected});
     if (schedule_->row_due(step)) write_rows(step.dt);
     if (schedule_->frame_due(step)) write_frame();
+    if (states_ && schedule_->state_due(step)) states_->add(*case_.system, state_);
     if (schedule_->checkpoint_due(step)) {
         write_checkpoint();
         case_.integrator->forget(*case_.system, state_);
@@ -225,9 +234,9 @@ ProgressState Run::progress_state() const {
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
-    RunSummary summary =
-        summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
-                  {state_, last_dt_, progress_.step, first_step_, setup_time_, seconds_since(started_), ledger()});
+    RunSummary summary = summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
+                                   {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, setup_time_,
+                                    seconds_since(started_), ledger()});
     summary.status = status;
     summary.message = message;
     summary.deck_fingerprint = fingerprint_;
@@ -284,6 +293,7 @@ int Run::end_out_of_memory() {
 int Run::march() {
     March march;
     march.t_end = case_.options.run.t_end;
+    march.event_tolerance = case_.options.run.event_tolerance;
     march.next_stop = [this](double t) { return schedule_->next_stop(t); };
     march.next_look = [this](double t) { return schedule_->next_look(t); };
     march.after_start = [this] { begin(); };

@@ -14,6 +14,10 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
                                 {"nodes", built.mesh->n_nodes()},
                                 {"steps", now.step},
                                 {"threads", omp_get_max_threads()}};
+    const WorkCounts work = built.integrator->work();
+    summary.groups["work"] = {{"steps", now.step - now.first_step},    {"rejected", now.n_rejected},
+                              {"force_evaluations", now.n_force},      {"jacobians", work.jacobians},
+                              {"factorisations", work.factorisations}, {"iterations", work.iterations}};
     if (built.cracking != nullptr) {
         std::vector<double> cracks;
         add_crack_columns(*built.cracking, now.state, cracks);
@@ -22,6 +26,7 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
                                     {"nodes", cracks[2]},
                                     {"splitting_events", built.cracking->n_events()},
                                     {"largest_overshoot", built.cracking->largest_overshoot()}};
+        if (const auto first = built.cracking->first_opening()) summary.groups["cracks"]["first_opening_s"] = *first;
     }
     summary.groups["time"] = {{"t_s", now.state.t}, {"t_end_s", built.options.run.t_end}, {"last_dt_s", now.last_dt}};
 

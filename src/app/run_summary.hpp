@@ -12,10 +12,11 @@ namespace gneiss {
 
 /// Where a run stands.
 struct RunNumbers {
-    const State& state;                    ///< last accepted
-    double last_dt = 0;                    ///< s
-    std::size_t step = 0, first_step = 0;  ///< of the whole run; the first of this part of it, after a restart
-    double setup_time = 0, wall_time = 0;  ///< s
+    const State& state;                       ///< last accepted
+    double last_dt = 0;                       ///< s
+    std::size_t step = 0, first_step = 0;     ///< of the whole run; the first of this part of it, after a restart
+    std::size_t n_rejected = 0, n_force = 0;  ///< trials thrown away, force evaluations, of this part
+    double setup_time = 0, wall_time = 0;     ///< s
     EnergyLedger energies;
 };
 

@@ -33,10 +33,11 @@ Schedule::Schedule(const CaseOptions& options)
       fields_(options.output.fields),
       history_(options.output.history > 0 ? options.output.history : options.run.t_end / rows_by_default),
       checkpoint_(options.run.checkpoint),
+      states_(options.output.states),
       field_times_(options.output.field_times) {}
 
 double Schedule::next_stop(double t) const {
-    double stop = std::min(next_multiple(t, fields_), next_multiple(t, checkpoint_));
+    double stop = std::min({next_multiple(t, fields_), next_multiple(t, checkpoint_), next_multiple(t, states_)});
     for (const double time : field_times_)
         if (!reached(t, time)) stop = std::min(stop, time);
     return stop;
@@ -52,6 +53,8 @@ bool Schedule::frame_due(const StepReport& step) const {
 }
 
 bool Schedule::checkpoint_due(const StepReport& step) const { return passed_multiple(step, checkpoint_); }
+
+bool Schedule::state_due(const StepReport& step) const { return passed_multiple(step, states_); }
 
 double Schedule::expected_rows(double dt) const { return 1 + std::ceil(t_end_ / std::max(dt, history_)); }
 

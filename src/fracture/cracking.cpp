@@ -90,6 +90,7 @@ EventOutcome Cracking::look(State& accepted) {
     if (!parts_.properties.empty()) change.opened = sides_beyond(accepted);
     if (parts_.come_apart) change.failed = parts_.come_apart(parts_.joints.sides_let_go(accepted, history(accepted)));
     if (change.opened.empty() && change.failed.empty()) return EventOutcome::none;
+    if (!change.opened.empty() && !first_opening_) first_opening_ = accepted.t;
     accepted.path.splitting -=
         parts_.joints.hand_over(change.failed, accepted, parts_.solid.history_of(parts_.joints, accepted));
     part(change, accepted);
@@ -148,7 +149,7 @@ bool Cracking::named(const std::vector<NodeCopy>& copies) const {
     });
 }
 
-std::array<double, 3> Cracking::stress(const State& state, const ElementSide& side, std::size_t part) {
+std::array<double, 3> Cracking::stress(const State& state, const ElementSide& side, std::size_t part) const {
     const ElementForces& elements = parts_.solid.elements();
     const std::size_t per_pack = static_cast<std::size_t>(elements.n_sub_triangles()) * 3 * pack_width;
     if (first_pack_.empty()) {
@@ -171,7 +172,7 @@ std::array<double, 3> Cracking::stress(const State& state, const ElementSide& si
     return {xx[0], xx[pack_width], xx[2 * pack_width]};
 }
 
-std::array<double, 3> Cracking::mean_stress(const State& state, std::int32_t side, std::size_t part) {
+std::array<double, 3> Cracking::mean_stress(const State& state, std::int32_t side, std::size_t part) const {
     const InnerSide& inner = parts_.inner.sides()[index(side)];
     const std::size_t n_parts = side_nodes(parts_.mesh.kind, 0).size() - 1;
     const std::array<double, 3> left = stress(state, inner.left, part);
@@ -179,7 +180,7 @@ std::array<double, 3> Cracking::mean_stress(const State& state, std::int32_t sid
     return {0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1]), 0.5 * (left[2] + right[2])};
 }
 
-std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
+std::vector<std::pair<std::int32_t, double>> Cracking::watched_sides(const State& state) const {
     const ElementForces& elements = parts_.solid.elements();
     candidates_.clear();
     looked_at_.resize(parts_.inner.sides().size(), -1);
@@ -201,7 +202,7 @@ std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
             }
         }
     }
-    std::vector<std::int32_t> found;
+    std::vector<std::pair<std::int32_t, double>> found;
     for (const std::int32_t side : candidates_) {
         const ElementSide& left = parts_.inner.sides()[index(side)].left;
         const auto local = side_nodes(parts_.mesh.kind, left.side);
@@ -220,13 +221,27 @@ std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
         const double length = std::hypot(line.x, line.y);
         const Vec2<double> t{line.x / length, line.y / length}, n{t.y, -t.x};
         const CohesionProperties<double>& p = parts_.properties[n_parts * index(side)];
-        const double index_of_side = envelope_index(p, dot(traction, n) / length, dot(traction, t) / length);
+        found.emplace_back(side, envelope_index(p, dot(traction, n) / length, dot(traction, t) / length));
+    }
+    return found;
+}
+
+std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
+    std::vector<std::int32_t> beyond;
+    for (const auto& [side, index_of_side] : watched_sides(state)) {
         if (!(index_of_side >= 1)) continue;
-        found.push_back(side);
+        beyond.push_back(side);
         largest_overshoot_ = std::max(largest_overshoot_, std::sqrt(index_of_side) - 1);
     }
-    std::ranges::sort(found);
-    return found;
+    std::ranges::sort(beyond);
+    return beyond;
+}
+
+double Cracking::indicator(const State& state) const {
+    ++look_;
+    double largest = 0;
+    for (const auto& [side, index_of_side] : watched_sides(state)) largest = std::max(largest, index_of_side);
+    return std::sqrt(largest) - 1;
 }
 
 void Cracking::wake_ends(State& state) {

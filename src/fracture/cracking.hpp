@@ -48,6 +48,9 @@ public:
     bool watches() const override { return true; }
     bool stirred(const State& state) const override;
     EventOutcome look(State& accepted) override;
+    bool has_indicator() const override { return !parts_.properties.empty(); }
+    /// How far the traction of the side that is nearest to its strength is beyond it, relative; -1: none is near.
+    double indicator(const State& state) const override;
 
     const Joints& joints() const { return parts_.joints; }
     const Mesh& mesh() const { return parts_.mesh; }
@@ -60,6 +63,8 @@ public:
     /// By how much tractions were beyond the strength where sides were found to open, relative, the largest so far:
     /// what the length of steps has to answer for.
     double largest_overshoot() const { return largest_overshoot_; }
+    /// When the first side has opened, s.
+    std::optional<double> first_opening() const { return first_opening_; }
 
     /// What has come apart, in the order in which it did: enough to come to the same mesh again.
     std::vector<double> save() const { return record_; }
@@ -71,10 +76,12 @@ private:
     struct Change {
         std::vector<std::int32_t> opened, failed;
     };
+    /// Closed sides of elements with a stress that may reach their strength, each with its index of the envelope.
+    std::vector<std::pair<std::int32_t, double>> watched_sides(const State& state) const;
     std::vector<std::int32_t> sides_beyond(const State& state);
     /// Mean of the stresses on both sides of a sub-edge, xx, yy, xy, Pa.
-    std::array<double, 3> mean_stress(const State& state, std::int32_t side, std::size_t part);
-    std::array<double, 3> stress(const State& state, const ElementSide& side, std::size_t part);
+    std::array<double, 3> mean_stress(const State& state, std::int32_t side, std::size_t part) const;
+    std::array<double, 3> stress(const State& state, const ElementSide& side, std::size_t part) const;
     bool named(const std::vector<NodeCopy>& copies) const;
     void part(const Change& change, State& state);
     void wake_ends(State& state);
@@ -83,13 +90,14 @@ private:
     std::vector<double> record_;
     std::size_t n_events_ = 0;
     double largest_overshoot_ = 0;
+    std::optional<double> first_opening_;  ///< s
     // scratch: stresses of packs already asked for in this look
-    std::vector<std::size_t> first_pack_;  ///< of each block
-    std::vector<std::int64_t> seen_;
-    std::vector<double> stresses_;  ///< shape (packs, sub-triangles, 3, lanes)
-    std::int64_t look_ = 0;
-    std::vector<std::int64_t> looked_at_;  ///< per side
-    std::vector<std::int32_t> candidates_;
+    mutable std::vector<std::size_t> first_pack_;  ///< of each block
+    mutable std::vector<std::int64_t> seen_;
+    mutable std::vector<double> stresses_;  ///< shape (packs, sub-triangles, 3, lanes)
+    mutable std::int64_t look_ = 0;
+    mutable std::vector<std::int64_t> looked_at_;  ///< per side
+    mutable std::vector<std::int32_t> candidates_;
     std::vector<double> force_;
 };
 

@@ -195,9 +195,10 @@ struct IntegratorOptions {
 };
 
 struct RunOptions {
-    double t_end = 0;         ///< s, > 0
-    double checkpoint = 0;    ///< interval of simulated time between checkpoints, s; 0: only at the end
-    double mass_damping = 0;  ///< C = c M, 1/s, >= 0
+    double t_end = 0;            ///< s, > 0
+    double checkpoint = 0;       ///< interval of simulated time between checkpoints, s; 0: only at the end
+    double mass_damping = 0;     ///< C = c M, 1/s, >= 0
+    double event_tolerance = 0;  ///< how well instants are known at which sides reach their strength, s; 0: to a step
 };
 
 struct ProbeOptions {
@@ -210,7 +211,37 @@ struct OutputOptions {
     double fields = 0;                ///< interval, s; 0: the first and the last state only
     std::vector<double> field_times;  ///< further times, s, at which the fields are written
     double history = 0;               ///< interval, s; 0: 1000 rows over the run
+    double states = 0;                ///< interval of whole states in full precision, s; 0: none
     std::vector<ProbeOptions> probes;
+};
+
+// ---- comparing schemes ----------------------------------------------------------------------------------------------
+
+/// A scheme with one of its settings.
+struct SchemeVariant {
+    std::string setting;  ///< what is varied: "dt = 1e-05"; empty: nothing is
+    std::string toml;     ///< the whole table as TOML: { type = "cvode", rtol = 1e-06 }
+    IntegratorOptions integrator;
+};
+
+struct SchemeOptions {
+    std::string name;
+    std::vector<SchemeVariant> variants;
+};
+
+/// A solution in closed form; may use x, y, t.
+struct ExactOptions {
+    std::array<Formula, 2> displacement;           ///< m
+    std::array<Formula, 2> velocity;               ///< m/s
+    std::optional<std::array<Formula, 3>> stress;  ///< Cauchy's, xx, yy, xy, Pa
+};
+
+/// The same case under several schemes.
+struct CompareOptions {
+    int samples = 20;  ///< states that are compared, equally far apart in time, >= 1
+    std::vector<SchemeOptions> schemes;
+    std::optional<SchemeVariant> reference;
+    std::optional<ExactOptions> exact;  ///< in place of a reference
 };
 
 /// A whole case.
@@ -230,6 +261,7 @@ struct CaseOptions {
     IntegratorOptions integrator;
     RunOptions run;
     OutputOptions output;
+    std::optional<CompareOptions> compare;
 };
 
 }  // namespace gneiss

@@ -38,9 +38,10 @@ public:
         return EventOutcome::none;
     }
 
-    /// Functions whose zero crossing is the event, for root finding.
-    virtual std::size_t n_indicators() const { return 0; }
-    virtual void indicators(const State&, std::span<double>) const {}
+    /// What rises to zero where the event happens, at the next look(); below zero: it does not happen yet, and at -1 or
+    /// below nothing is known of when it will. None: there is nothing to search for.
+    virtual bool has_indicator() const { return false; }
+    virtual double indicator(const State&) const { return -1; }
 
     /// Changes the accepted state: the only place where topology may change.
     virtual EventOutcome apply(State& accepted) = 0;

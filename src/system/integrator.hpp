@@ -38,6 +38,13 @@ struct StepColumn {
     std::string unit = {};
 };
 
+/// What an integrator has done beside evaluating forces, since it was made.
+struct WorkCounts {
+    std::size_t jacobians = 0;       ///< tangents assembled
+    std::size_t factorisations = 0;  ///< of matrices
+    std::size_t iterations = 0;      ///< of Newton's method: each solves a linear system
+};
+
 /// Where a step stands that takes many iterations.
 struct StepProgress {
     double t = 0;               ///< time that the step goes to, s
@@ -67,6 +74,8 @@ public:
     virtual bool is_static() const { return false; }
     /// What it reports of each step beside StepReport's own members; empty: its steps are not worth a table.
     virtual std::vector<StepColumn> step_columns() const { return {}; }
+    /// Explicit schemes have nothing to count here.
+    virtual WorkCounts work() const { return {}; }
     /// Matrices and their factors, bytes, as far as the pattern tells; once started.
     virtual double matrix_bytes() const { return 0; }
 

@@ -35,6 +35,69 @@ double first_instant(std::initializer_list<double> times) {
     return first;
 }
 
+/// The largest indicator of the events that have one.
+double indicator_of(const SemiDiscrete& system, const State& state) {
+    double largest = -1;
+    for (const auto& event : system.events())
+        if (event->has_indicator()) largest = std::max(largest, event->indicator(state));
+    return largest;
+}
+
+/// Searches for the instant at which an indicator rises to zero, by steps that are taken again.
+class EventSearch {
+public:
+    EventSearch(const SemiDiscrete& system, Integrator& integrator, double tolerance)
+        : system_(system), integrator_(integrator), tolerance_(tolerance) {}
+
+    /// A step as advance() takes it, which ends at the latest where an event is known to have happened.
+    StepReport advance(State& state, double stop) {
+        const double before = indicator_of(system_, state);
+        if (!(before < 0)) return integrator_.advance(system_, state, stop);
+        std::size_t n_rejected = 0, n_force = 0;
+        for (;;) {
+            const State start = state;
+            const IntegratorMemory memory = integrator_.save();
+            const double way = crossed_ ? *crossed_ - start.t : 0;
+            StepReport step = integrator_.advance(system_, state, crossed_ ? guess(start.t, before) : stop);
+            step.n_rejected += n_rejected;
+            step.n_force += n_force;
+            const double now = indicator_of(system_, state);
+            if (now < 0 || is_short(start.t, state.t)) {
+                if (now >= 0 || (crossed_ && !(state.t < *crossed_))) crossed_.reset();
+                if (crossed_) slow_ = *crossed_ - state.t > 0.5 * way;
+                return step;
+            }
+            slow_ = crossed_ && state.t - start.t > 0.5 * way;
+            crossed_ = state.t;
+            after_ = now;
+            n_rejected = step.n_rejected + 1;
+            n_force = step.n_force;
+            state = start;
+            integrator_.load(system_, state, memory);
+        }
+    }
+
+private:
+    /// No step has to be shorter than the tolerance, or than round-off lets it be.
+    bool is_short(double from, double to) const { return to - from <= tolerance_ || reached(from, to); }
+
+    /// Where a straight line says that it happens, but not closer than half the tolerance to either end; the middle
+    /// where nothing is known of before, or where the last line has not halved what is left.
+    double guess(double t, double before) const {
+        if (is_short(t, *crossed_)) return *crossed_;
+        const double way = *crossed_ - t, room = std::min(0.5, 0.5 * tolerance_ / way);
+        const bool straight = before > -1 && after_ > 0 && !slow_;
+        return t + way * std::clamp(straight ? before / (before - after_) : 0.5, room, 1 - room);
+    }
+
+    const SemiDiscrete& system_;
+    Integrator& integrator_;
+    double tolerance_;
+    std::optional<double> crossed_;  ///< an instant at which it will have happened, s
+    double after_ = 0;               ///< the indicator there
+    bool slow_ = false;              ///< the last trial has left more than half of the way to it
+};
+
 }  // namespace
 
 EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
@@ -54,14 +117,18 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
         integrator.start(system, state, StartReason::fresh);
     }
     if (after_start) after_start();
-    const bool unseen =
-        next_look && std::ranges::none_of(system.events(), [](const auto& event) { return event->n_indicators() > 0; });
+    const bool searches =
+        event_tolerance > 0 && std::ranges::any_of(system.events(), &Event::has_indicator,
+                                                   [](const auto& event) -> const Event& { return *event; });
+    const bool unseen = next_look && !searches;
+    EventSearch search(system, integrator, event_tolerance);
     try {
         while (state.t < t_end) {
             const double planned = next_stop ? next_stop(state.t) : t_end;
             const double stop = first_instant({t_end, planned, next_event_time(system, state)});
-            const StepReport step = unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
-                                           : integrator.advance(system, state, stop);
+            const StepReport step = searches ? search.advance(state, stop)
+                                    : unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
+                                             : integrator.advance(system, state, stop);
             switch (apply_due_events(system, state)) {
                 case EventOutcome::none:
                     break;

@@ -29,6 +29,9 @@ struct March {
     /// The instant after t at which after_step() wants to see the state next, s: steps before it may pass unseen.
     /// Without this it sees every step.
     std::function<double(double t)> next_look;
+    /// > 0: where an event's indicator rises above zero within a step, the step is taken again, shorter, until the
+    /// event is known to happen within this time, s. 0: such an event happens at the end of the step.
+    double event_tolerance = 0;
     /// Called once before the first step, when the integrator has started.
     std::function<void()> after_start;
     /// Called after every accepted step that is not passed unseen, once its events have been applied. Returns false to

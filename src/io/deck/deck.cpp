@@ -10,7 +10,11 @@
 
 namespace gneiss {
 
-CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set) {
+namespace {
+
+/// The deck as TOML, with what is set laid over it.
+toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& set,
+                           deck::Findings& findings) {
     toml::table document;
     try {
         document = toml::parse(text, name);
@@ -18,9 +22,24 @@ CaseOptions parse_deck(std::string_view text, std::string name, const std::vecto
         throw InputError(deck::position_of(error.source(), {name, 1, 1}).text(),
                          fmt::format("no valid TOML: {}", error.description()));
     }
-    deck::Findings findings;
     for (const std::string& argument : set) deck::apply_override(document, argument, findings);
+    return document;
+}
 
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    if (!stream || std::filesystem::is_directory(file))
+        throw InputError(file.string(), "no such deck, or not readable");
+    text << stream.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set) {
+    deck::Findings findings;
+    const toml::table document = parse_document(text, name, set, findings);
     CaseOptions options;
     deck::TableReader table(findings, document, deck::Position{name, 1, 1}, "");
     deck::read_section(deck::case_section(), table, options);
@@ -29,16 +48,38 @@ CaseOptions parse_deck(std::string_view text, std::string name, const std::vecto
 }
 
 CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (!stream || std::filesystem::is_directory(file))
-        throw InputError(file.string(), "no such deck, or not readable");
-    text << stream.rdbuf();
-    CaseOptions options = parse_deck(text.str(), file.string(), set);
-    if (options.mesh.source == MeshOptions::Source::file) {
+    CaseOptions options = parse_deck(text_of(file), file.string(), set);
+    if (options.mesh.source == MeshOptions::Source::file)
         options.mesh.file = (file.parent_path() / options.mesh.file).string();
-    }
     return options;
+}
+
+ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set) {
+    ComparisonDecks decks{read_deck(file, set), {}};
+    if (!decks.options.compare)
+        throw InputError(file.string(), "has no table [compare]: schemes to run, and what to measure them against");
+    const CompareOptions& compare = *decks.options.compare;
+    deck::Findings findings;
+    toml::table document = parse_document(text_of(file), file.string(), set, findings);
+    document.erase("compare");
+    document["run"].as_table()->erase("checkpoint");  // its times would shorten steps
+    if (toml::table& mesh = *document["mesh"].as_table(); mesh.contains("file"))
+        mesh.insert_or_assign("file", std::filesystem::absolute(decks.options.mesh.file).lexically_normal().string());
+    if (!document.contains("output")) document.insert("output", toml::table{});
+    toml::table& output = *document["output"].as_table();
+    output.erase("fields");  // so would these
+    output.erase("field_times");
+    output.insert_or_assign("states", decks.options.run.t_end / compare.samples);
+    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
+        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
+        std::ostringstream text;
+        text << toml::toml_formatter(document) << '\n';
+        decks.runs.push_back({scheme, variant.setting, text.str()});
+    };
+    if (compare.reference) add("reference", *compare.reference);
+    for (const SchemeOptions& scheme : compare.schemes)
+        for (const SchemeVariant& variant : scheme.variants) add(scheme.name, variant);
+    return decks;
 }
 
 }  // namespace gneiss

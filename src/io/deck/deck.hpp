@@ -20,6 +20,19 @@ CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::
 /// The same for text at hand; `name` stands for the file in messages, and a mesh file stays as it is written.
 CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set = {});
 
+/// The decks of a comparison: the case itself under one scheme after the other.
+struct ComparisonDecks {
+    struct Run {
+        std::string scheme,
+            setting;       ///< SchemeOptions::name, SchemeVariant::setting; of the reference: "reference", ""
+        std::string deck;  ///< TOML: without [compare], frames and checkpoints, with states, files by their whole names
+    };
+    CaseOptions options;    ///< of the deck itself
+    std::vector<Run> runs;  ///< the reference first, where there is one
+};
+/// @throws InputError as read_deck does, and if there is nothing to compare
+ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set = {});
+
 /// What `gneiss list` shows: the names a deck may use for one kind of thing, each with its meaning in one line.
 struct Listing {
     struct Entry {

@@ -106,17 +106,31 @@ Key<T> formula(std::string_view name, Formula T::*member, std::string_view varia
                      });
 }
 
+template <std::size_t n>
+bool read_formulas(const Value& value, std::array<Formula, n>& out, const NumberRule& rule,
+                   std::string_view variables) {
+    const auto values = value.elements(n, "numbers or expressions");
+    bool good = values.has_value();
+    for (std::size_t i = 0; values && i < n; ++i) good = (*values)[i].read(out[i], rule, variables) && good;
+    return good;
+}
+
 template <class T, std::size_t n>
 Key<T> formulas(std::string_view name, std::array<Formula, n> T::*member, std::string_view variables,
                 const Spec& spec) {
     return custom<T>(name, fmt::format("an array of {} numbers or expressions", n), written(T{}.*member), spec,
                      [=, range = spec.range, unit = spec.unit](const Value& value, TableReader&, T& out) {
-                         const auto values = value.elements(n, "numbers or expressions");
-                         bool good = values.has_value();
-                         for (std::size_t i = 0; values && i < n; ++i) {
-                             good = (*values)[i].read((out.*member)[i], NumberRule{range, unit}, variables) && good;
-                         }
-                         return good;
+                         return read_formulas(value, out.*member, NumberRule{range, unit}, variables);
+                     });
+}
+
+/// Formulas that may be left out without having a value then.
+template <class T, std::size_t n>
+Key<T> formulas(std::string_view name, std::optional<std::array<Formula, n>> T::*member, std::string_view variables,
+                const Spec& spec) {
+    return custom<T>(name, fmt::format("an array of {} numbers or expressions", n), "", spec,
+                     [=, range = spec.range, unit = spec.unit](const Value& value, TableReader&, T& out) {
+                         return read_formulas(value, (out.*member).emplace(), NumberRule{range, unit}, variables);
                      });
 }
 
@@ -204,6 +218,14 @@ template <class T, class S>
 Key<T> table(std::string_view name, S T::*member, const Section<S>& (*section)(), const Spec& spec) {
     return custom<T>(name, "a table", "", spec, [=](const Value& value, TableReader&, T& out) {
         return read_table(value, section(), out.*member);
+    });
+}
+
+/// A table that may be left out without anything standing for it then.
+template <class T, class S>
+Key<T> table(std::string_view name, std::optional<S> T::*member, const Section<S>& (*section)(), const Spec& spec) {
+    return custom<T>(name, "a table", "", spec, [=](const Value& value, TableReader&, T& out) {
+        return read_table(value, section(), (out.*member).emplace());
     });
 }
 

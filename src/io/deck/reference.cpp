@@ -103,6 +103,9 @@ const std::vector<SectionDoc>& section_docs() {
         describe("run", "[run]", {"run"}, run_section()),
         describe("output", "[output]", {"output"}, output_section()),
         describe("output.probes", "output.probes", {"output.probes"}, probe_section()),
+        describe("compare", "[compare]", {"compare"}, compare_section()),
+        describe("compare.scheme", "[[compare.scheme]]", {"compare.scheme"}, scheme_section()),
+        describe("compare.exact", "[compare.exact]", {"compare.exact"}, exact_section()),
     };
     return all;
 }

@@ -201,7 +201,12 @@ const Section<RunOptions>& run_section() {
              "checkpoint", &R::checkpoint,
              {.unit = "s", .range = at_least(0), .meaning = "simulated time between checkpoints; 0: one at the end"}),
          number("mass_damping", &R::mass_damping,
-                {.unit = "1/s", .range = at_least(0), .meaning = "damping force per mass and velocity"})}};
+                {.unit = "1/s", .range = at_least(0), .meaning = "damping force per mass and velocity"}),
+         number("event_tolerance", &R::event_tolerance,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .meaning = "steps in which a side reaches its strength are taken again, shorter, until the instant is "
+                            "known to this; 0: sides open at the end of the step"})}};
     return section;
 }
 
@@ -232,6 +237,10 @@ const Section<OutputOptions>& output_section() {
                  .range = at_least(0),
                  .meaning = "simulated time between rows of history.csv, probes.csv and reactions.csv; 0: 1000 rows "
                             "over the run"}),
+         number("states", &O::states,
+                {.unit = "s",
+                 .range = at_least(0),
+                 .meaning = "simulated time between whole states in full precision, in states.h5; 0: none"}),
          tables("probes", &O::probes, probe_section, {.meaning = "points that are watched"})},
         check_output};
     return section;
@@ -285,7 +294,9 @@ const Section<CaseOptions>& case_section() {
                 {.meaning = "sides with strengths of their own, one `[[interface]]` each"}),
          table("integrator", &C::integrator, integrator_section, {.meaning = "time integration"}),
          table("run", &C::run, run_section, {.required = true, .meaning = "how long, how damped"}),
-         table("output", &C::output, output_section, {.meaning = "what is written, and when"})},
+         table("output", &C::output, output_section, {.meaning = "what is written, and when"}),
+         table("compare", &C::compare, compare_section,
+               {.meaning = "schemes that `gneiss compare` runs; `gneiss run` makes nothing of it"})},
         check};
     return section;
 }

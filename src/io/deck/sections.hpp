@@ -40,6 +40,9 @@ const Section<WallOptions>& wall_section();
 const Section<CrackOptions>& crack_section();
 const Section<InterfaceOptions>& interface_section();
 const Section<InnerLine>& line_section();
+const Section<CompareOptions>& compare_section();
+const Section<SchemeOptions>& scheme_section();
+const Section<ExactOptions>& exact_section();
 
 /// Whether exactly one of the sets that suit the law is given, and completely; reports otherwise.
 bool check_constants_set(const Value& value, const GivenConstants& given, LawKind law);

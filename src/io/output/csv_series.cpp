@@ -20,17 +20,6 @@ namespace {
 // More than this is not kept back, however short the time since the last write.
 constexpr std::size_t largest_wait = 1 << 16;  // bytes
 
-/// Quotes a field that holds a separator [RFC 4180, 2]; a line break becomes a blank, so that a row is a line.
-std::string field_text(std::string_view field) {
-    if (field.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(field);
-    std::string text = "\"";
-    for (const char c : field) {
-        if (c == '"') text += '"';
-        text += c == '\r' || c == '\n' ? ' ' : c;
-    }
-    return text + '"';
-}
-
 /// Fields of a line; separators between quotes do not count.
 std::size_t n_fields(std::string_view line) {
     std::size_t n = 1;
@@ -46,7 +35,7 @@ std::string header_of(const std::vector<CsvColumn>& columns) {
     std::string header;
     for (const CsvColumn& column : columns) {
         if (!header.empty()) header += ',';
-        header += field_text(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+        header += csv_field(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
     }
     return header + '\n';
 }
@@ -95,6 +84,16 @@ Kept rows_to_keep(const std::filesystem::path& path, const std::string& header, 
 
 }  // namespace
 
+std::string csv_field(std::string_view field) {
+    if (field.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(field);
+    std::string text = "\"";
+    for (const char c : field) {
+        if (c == '"') text += '"';
+        text += c == '\r' || c == '\n' ? ' ' : c;
+    }
+    return text + '"';
+}
+
 CsvSeries::CsvSeries(std::filesystem::path path, const std::vector<CsvColumn>& columns,
                      std::optional<double> restart_time)
     : path_(std::move(path)), n_columns_(columns.size()), last_flush_(std::chrono::steady_clock::now()) {
@@ -125,7 +124,7 @@ void CsvSeries::row(std::span<const double> values, std::initializer_list<std::s
         if (k > 0) waiting_ += ',';
         append_number(waiting_, values[k]);
     }
-    for (const std::string_view text : texts) waiting_.append(",").append(field_text(text));
+    for (const std::string_view text : texts) waiting_.append(",").append(csv_field(text));
     waiting_ += '\n';
     last_time_ = values[0];
     if (waiting_.size() >= largest_wait)

@@ -18,6 +18,10 @@ struct CsvColumn {
     std::string unit = {};
 };
 
+/// The field as it stands in a row: quoted where it holds a separator [RFC 4180, 2]; a line break becomes a blank, so
+/// that a row is a line.
+std::string csv_field(std::string_view field);
+
 /// A growing table. The first column is the time. Numbers are the shortest decimals that read back as the same double;
 /// what is no number stands as nan, inf or -inf.
 ///

@@ -110,11 +110,19 @@ bound = "lanczos"
 t_end = 0.02
 checkpoint = 0.01
 mass_damping = 3
+event_tolerance = 1e-9
 [output]
 fields = 2e-4
 field_times = [1e-3, 0.5e-3]
 history = 1e-5
+states = 1e-3
 probes = [{ at = [5.0, 0.0], name = "p0", about = [0.0, 0.0] }]
+[compare]
+samples = 7
+exact = { displacement = ["x*t", 0], velocity = ["x", 0], stress = [1e6, 0, 0] }
+[[compare.scheme]]
+name = "leapfrog"
+integrator = { type = "central_difference", safety = [0.8, 0.4] }
 )toml",
     R"toml(
 [mesh]
@@ -146,6 +154,11 @@ most_linear_iterations = 500
 matrix_free = true
 [run]
 t_end = 1
+[compare]
+reference = { type = "cvode", rtol = 1e-10 }
+[[compare.scheme]]
+name = "one"
+integrator = { type = "newmark", dt = 1e-3 }
 )toml",
     R"toml(
 mesh = { generator = "quadrilateral", corners = [[0, 0], [48, 44], [48, 60], [0, 44]], cells = [2, 3] }

@@ -82,12 +82,14 @@ public:
     std::string name() const override { return "scripted"; }
     void start(const SemiDiscrete&, State& state, StartReason why) override {
         const char* const reasons[] = {"fresh", "reinitialise", "resize"};
+        last_ = state.t;
         diary_.push_back(std::string("start ") + reasons[static_cast<int>(why)] + " at " + number(state.t));
     }
     StepReport advance(const SemiDiscrete&, State& state, double t_stop) override {
         const double before = state.t;
         if (before >= fails_at) throw RecoverableError("told to fail");
-        state.t = std::min(before + 1, t_stop);
+        EXPECT_EQ(before, last_) << "a step begins where the integrator stands";
+        state.t = last_ = std::min(before + 1, t_stop);
         diary_.push_back("step to " + number(state.t));
         return {state.t, state.t - before, 0, 1};
     }
@@ -100,11 +102,15 @@ public:
     }
     double kinetic_energy(const SemiDiscrete&, const State&) const override { return 0; }
     std::span<const double> reactions() const override { return {}; }
-    IntegratorMemory save() const override { return {}; }
-    void load(const SemiDiscrete&, State&, const IntegratorMemory&) override {}
+    IntegratorMemory save() const override { return {{"t", {last_}}}; }
+    void load(const SemiDiscrete&, State& state, const IntegratorMemory& memory) override {
+        last_ = memory.at("t")[0];
+        EXPECT_EQ(last_, state.t);
+    }
 
 private:
     Diary& diary_;
+    double last_ = 0;  ///< where the last step has ended
 };
 
 class MarchOverTime : public testing::Test {
@@ -236,10 +242,104 @@ TEST_F(MarchOverTime, AfterStepSaysStop_RunIsInterruptedThere) {
 TEST_F(MarchOverTime, Resumed_NeitherStartsNorRepeatsEvents) {
     add_event("jump", {1.5}, EventOutcome::reinitialise);
     state.t = 0.5;
+    integrator.load(system, state, {{"t", {0.5}}});
     march.after_start = [&] { diary.push_back("after start"); };
     run(true);
     EXPECT_THAT(diary,
                 ElementsAre("after start", "step to 1.5", "jump at 1.5", "start reinitialise at 1.5", "step to 2.5"));
+}
+
+/// Happens when its indicator has risen to zero, as often as that is told.
+class Threshold final : public Event {
+public:
+    Threshold(std::vector<double> instants, bool tells, std::vector<double>& happened)
+        : instants_(std::move(instants)), tells_(tells), happened_(happened) {}
+    std::string name() const override { return "threshold"; }
+    std::optional<double> next_time(const State&) const override { return {}; }
+    EventOutcome apply(State&) override { return EventOutcome::none; }
+    bool watches() const override { return true; }
+    bool has_indicator() const override { return true; }
+    /// A square root of time: straight lines do not find it at once.
+    double indicator(const State& state) const override {
+        if (next_ == instants_.size()) return -1;
+        const double value = std::sqrt(state.t / instants_[next_]) - 1;
+        return value < 0 && !tells_ ? -1 : jumps ? (value < 0 ? -0.9 : 1e-3) : value;
+    }
+    bool jumps = false;  ///< by nearly 1, and by little beyond: lines are no use
+    EventOutcome look(State& state) override {
+        if (indicator(state) < 0) return EventOutcome::none;
+        happened_.push_back(state.t);
+        ++next_;
+        return EventOutcome::reinitialise;
+    }
+
+private:
+    std::vector<double> instants_;
+    bool tells_;
+    std::vector<double>& happened_;
+    std::size_t next_ = 0;
+};
+
+class MarchToThreshold : public MarchOverTime, public testing::WithParamInterface<bool> {
+protected:
+    std::vector<double> happened;
+    std::size_t n_rejected = 0, n_steps = 0;
+    void watch(std::vector<double> instants) {
+        system.list.push_back(std::make_unique<Threshold>(std::move(instants), GetParam(), happened));
+        march.after_step = [this](const StepReport& step) {
+            n_rejected += step.n_rejected;
+            n_steps += step.n_steps;
+            return true;
+        };
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Indicators, MarchToThreshold, testing::Bool(), [](const auto& instance) {
+    return std::string(instance.param ? "Tell" : "TellNothingBefore");
+});
+
+TEST_P(MarchToThreshold, WithATolerance_HappensWithinIt_NeverBefore) {
+    const std::vector<double> instants{0.3337, 0.7, 1.9};
+    watch(instants);
+    march.event_tolerance = 1e-6;
+    run();
+    ASSERT_EQ(happened.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GE(happened[i], instants[i]);
+        EXPECT_LE(happened[i], instants[i] + 1e-6);
+    }
+    EXPECT_EQ(state.t, 2.5);
+    EXPECT_GT(n_rejected, 3u);
+    // halving takes log2(1/1e-6) = 20 steps for each
+    EXPECT_LE(n_steps + n_rejected, 3u * 22 + 4);
+    EXPECT_EQ(std::ranges::count_if(diary, [](const std::string& entry) { return entry.starts_with("step"); }),
+              static_cast<std::ptrdiff_t>(n_steps + n_rejected));
+}
+
+TEST_P(MarchToThreshold, IndicatorThatJumps_IsFoundByHalving) {
+    watch({0.3337});
+    static_cast<Threshold&>(*system.list.back()).jumps = true;
+    march.event_tolerance = 1e-6;
+    run();
+    ASSERT_EQ(happened.size(), 1u);
+    EXPECT_GE(happened[0], 0.3337);
+    EXPECT_LE(happened[0], 0.3337 + 1e-6);
+    EXPECT_LE(n_steps + n_rejected, 2u * 22 + 4);
+}
+
+TEST_P(MarchToThreshold, ToleranceBelowRoundOff_EndsNevertheless) {
+    watch({0.3337});
+    march.event_tolerance = 1e-30;
+    run();
+    ASSERT_EQ(happened.size(), 1u);
+    EXPECT_NEAR(happened[0], 0.3337, 1e-12);
+    EXPECT_LE(n_steps + n_rejected, 2u * 45 + 4);  // halvings and lines in turn
+}
+
+TEST_P(MarchToThreshold, WithoutATolerance_HappensAtTheEndOfTheStep) {
+    watch({0.3337, 1.9});
+    run();
+    EXPECT_EQ(happened, (std::vector<double>{1, 2}));
+    EXPECT_EQ(n_rejected, 0u);
 }
 
 TEST_F(MarchOverTime, FailedStep_LeavesTheLastAcceptedState) {

@@ -1,0 +1,283 @@
+#include "app/compare_schemes.hpp"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+#include <thread>
+
+#include "app/comparison.hpp"
+#include "app/comparison_report.hpp"
+#include "base/errors.hpp"
+#include "io/deck/deck.hpp"
+#include "io/output/atomic_file.hpp"
+#include "io/output/csv_series.hpp"
+#include "io/output/fingerprint.hpp"
+#include "io/output/stop_request.hpp"
+
+namespace gneiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "cvode bdf, rtol = 1e-06" as the name of a folder: cvode_bdf-rtol_1e-06.
+std::string folder_name(const std::string& scheme, const std::string& setting) {
+    std::string name;
+    const auto add = [&](const std::string& text) {
+        for (const char c : text) {
+            const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
+            if (plain)
+                name += c;
+            else if (!name.empty() && name.back() != '_')
+                name += '_';
+        }
+    };
+    add(scheme);
+    if (!setting.empty()) {
+        name += '-';
+        add(setting);
+    }
+    return name;
+}
+
+std::string title_of(const ComparisonDecks::Run& run) {
+    return run.setting.empty() ? run.scheme : fmt::format("{}, {}", run.scheme, run.setting);
+}
+
+double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// How a process of its own ended.
+struct Ended {
+    int exit_code = 0;  ///< 128 + signal where a signal ended it
+    RunCost cost;
+};
+
+/// Runs a program to its end. A stop that is asked for is handed on.
+Ended carry_out(const fs::path& program, const std::vector<std::string>& arguments, const StopRequest& stop) {
+    std::vector<std::string> words{program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    pid_t process = 0;
+    if (const int error = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
+        error != 0)
+        throw IoError(program, std::generic_category().message(error));
+    int status = 0;
+    rusage usage{};
+    for (bool told = false;;) {
+        const pid_t ended = wait4(process, &status, WNOHANG, &usage);
+        if (ended == process) break;
+        if (ended < 0 && errno != EINTR) throw io_error_from_errno(program, "waiting for it");
+        if (stop.requested() && !told) told = kill(process, SIGTERM) == 0;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    constexpr double bytes_per_unit = 1024;  // of ru_maxrss on Linux
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            {seconds(usage.ru_utime) + seconds(usage.ru_stime), bytes_per_unit * static_cast<double>(usage.ru_maxrss)}};
+}
+
+class Comparison {
+public:
+    Comparison(const RunArguments& arguments, fs::path program)
+        : arguments_(arguments),
+          program_(std::move(program)),
+          decks_(read_comparison(arguments.deck, arguments.set)),
+          program_fingerprint_(fingerprint_text(read_file(program_))) {
+        out_ =
+            arguments.out.empty() ? fs::path("results") / (arguments.deck.stem().string() + "-compare") : arguments.out;
+        if (decks_.options.mesh.source == MeshOptions::Source::file)
+            mesh_fingerprint_ = fingerprint_text(read_file(decks_.options.mesh.file));
+        std::set<std::string> names;
+        for (const auto& run : decks_.runs)
+            if (const std::string name = folder_name(run.scheme, run.setting);
+                name.find_first_not_of("._-") == std::string::npos || !names.insert(name).second)
+                throw InputError(
+                    arguments.deck.string(),
+                    fmt::format("[compare]: the run \"{}\" would have the folder \"{}\", which is none or that "
+                                "of another run: give its scheme another name",
+                                title_of(run), name));
+    }
+
+    int carry_out_all();
+
+private:
+    ComparedRun carry_out_one(std::size_t number);
+    void measure(std::vector<ComparedRun>& runs) const;
+    std::string reference_text() const;
+    void write(const std::vector<ComparedRun>& runs) const;
+
+    RunArguments arguments_;
+    fs::path program_;
+    ComparisonDecks decks_;
+    std::string program_fingerprint_, mesh_fingerprint_;
+    fs::path out_;
+    StopRequest stop_;
+};
+
+ComparedRun Comparison::carry_out_one(std::size_t number) {
+    const ComparisonDecks::Run& run = decks_.runs[number];
+    const fs::path folder = out_ / "runs" / folder_name(run.scheme, run.setting);
+    make_folder(folder);
+    const fs::path deck = folder / "case.toml", made_from = folder / "made_from.json";
+    const nlohmann::ordered_json key{{"deck", fingerprint_text(run.deck)},
+                                     {"mesh", mesh_fingerprint_},
+                                     {"program", program_fingerprint_},
+                                     {"threads", arguments_.threads}};
+    const auto announce = [&](const char* what) {
+        if (!arguments_.quiet)
+            fmt::print(stderr, "[{}/{}] {}{}\n", number + 1, decks_.runs.size(), title_of(run), what);
+    };
+    RunCost cost;
+    int ended_with = exit_code::done;
+    const auto before = fs::exists(made_from) ? nlohmann::json::parse(read_file(made_from), nullptr, false) : nullptr;
+    const bool is_there = before.is_object() && before.value("key", nlohmann::json()) == nlohmann::json(key) &&
+                          fs::exists(folder / "summary.json") &&
+                          (before.value("exit_code", -1) != exit_code::done || fs::exists(folder / "states.h5"));
+    if (is_there) {
+        announce(": there already");
+        cost = {before.at("cpu_time_s"), before.at("peak_memory_bytes")};
+    } else {
+        announce("");
+        fs::remove(made_from);
+        fs::remove(folder / "summary.json");
+        write_atomically(deck, run.deck);
+        std::vector<std::string> words{"run", deck.string(), "--out", folder.string()};
+        if (arguments_.threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", arguments_.threads)});
+        if (arguments_.quiet) words.push_back("--quiet");
+        const Ended ended = carry_out(program_, words, stop_);
+        cost = ended.cost;
+        ended_with = ended.exit_code;
+        if (!stop_.requested() && ended.exit_code < 128)
+            write_atomically(made_from, nlohmann::ordered_json{{"key", key},
+                                                               {"exit_code", ended.exit_code},
+                                                               {"cpu_time_s", cost.cpu_time},
+                                                               {"peak_memory_bytes", cost.peak_memory}}
+                                                .dump(2) +
+                                            '\n');
+    }
+    ComparedRun result = read_run(folder);
+    if (result.status == "refused")
+        result.message = fmt::format("it did not begin: gneiss run {} says why", deck.string());
+    if (result.status == name_of(RunStatus::running)) {
+        result.status = name_of(RunStatus::failed);
+        result.message = fmt::format("the process ended without a word, exit code {}: out of memory?", ended_with);
+    }
+    result.scheme = run.scheme;
+    result.setting = run.setting;
+    result.cost = cost;
+    return result;
+}
+
+void Comparison::measure(std::vector<ComparedRun>& runs) const {
+    const CompareOptions& compare = *decks_.options.compare;
+    std::optional<SavedStates> reference;
+    if (compare.reference) reference = read_states(runs.front().folder / "states.h5");
+    for (ComparedRun& run : runs) {
+        if (!run.done()) continue;
+        try {
+            const SavedStates states = read_states(run.folder / "states.h5");
+            run.errors = reference ? errors_against(states, *reference) : errors_against(states, *compare.exact);
+        } catch (const InputError& error) {
+            run.message = error.what();
+        }
+    }
+}
+
+std::string Comparison::reference_text() const {
+    const CompareOptions& compare = *decks_.options.compare;
+    return compare.reference ? "the reference, " + compare.reference->toml : "the solution in closed form of the deck";
+}
+
+void Comparison::write(const std::vector<ComparedRun>& runs) const {
+    std::string csv;
+    const auto add_line = [&](const std::vector<std::string>& cells) {
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            if (k > 0) csv += ',';
+            csv += csv_field(cells[k]);
+        }
+        csv += '\n';
+    };
+    const std::vector<std::string> header = comparison_header();
+    add_line(header);
+    auto rows = nlohmann::ordered_json::array();
+    for (const ComparedRun& run : runs) {
+        add_line(comparison_row(run, false));
+        nlohmann::ordered_json row{{"scheme", run.scheme},
+                                   {"setting", run.setting},
+                                   {"status", run.status},
+                                   {"folder", run.folder.string()},
+                                   {"energy_error", run.energy_error},
+                                   {"energy_drift", run.energy_drift},
+                                   {"steps", run.steps},
+                                   {"rejected", run.rejected},
+                                   {"force_evaluations", run.force_evaluations},
+                                   {"jacobians", run.jacobians},
+                                   {"factorisations", run.factorisations},
+                                   {"iterations", run.iterations},
+                                   {"cpu_time_s", run.cost.cpu_time},
+                                   {"stepping_time_s", run.wall_time},
+                                   {"peak_memory_bytes", run.cost.peak_memory}};
+        if (!run.message.empty()) row["message"] = run.message;
+        if (run.errors) {
+            row["error_displacement"] = run.errors->displacement;
+            row["error_velocity"] = run.errors->velocity;
+            if (run.errors->stress) row["error_stress"] = *run.errors->stress;
+        }
+        rows.push_back(std::move(row));
+    }
+    const nlohmann::ordered_json json{{"title", decks_.options.title}, {"reference", reference_text()}, {"runs", rows}};
+    write_atomically(out_ / "compare.csv", csv);
+    write_atomically(out_ / "compare.json",
+                     json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+    write_atomically(out_ / "report.html", comparison_report(decks_.options.title, reference_text(), runs));
+}
+
+int Comparison::carry_out_all() {
+    std::vector<ComparedRun> runs;
+    for (std::size_t number = 0; number < decks_.runs.size() && !stop_.requested(); ++number) {
+        runs.push_back(carry_out_one(number));
+        if (number == 0 && decks_.options.compare->reference && !runs.front().done() && !stop_.requested())
+            throw RecoverableError(fmt::format("the reference has not come to its end: {}", runs.front().message));
+    }
+    if (stop_.requested()) {
+        fmt::print(stderr, "stopped; call it again to go on: runs that are done are not repeated\n");
+        return stop_.exit_code();
+    }
+    measure(runs);
+    write(runs);
+    if (!arguments_.quiet) {
+        for (const ComparedRun& run : runs)
+            std::cout << fmt::format("{:<40} {}\n", run.title(),
+                                     run.errors
+                                         ? fmt::format("error {:.2e} in u, {:.2e} in v; balance {:.1e}; {} steps, "
+                                                       "{} force evaluations, {:.3g} s",
+                                                       run.errors->displacement, run.errors->velocity, run.energy_error,
+                                                       run.steps, run.force_evaluations, run.cost.cpu_time)
+                                         : run.status + ": " + run.message);
+        fmt::print(stderr, "results: {}\n", out_.string());
+    }
+    const bool all_done = std::ranges::all_of(runs, &ComparedRun::done);
+    return all_done ? exit_code::done : exit_code::failed;
+}
+
+}  // namespace
+
+int compare_schemes(const RunArguments& arguments, const fs::path& program) {
+    return Comparison(arguments, program).carry_out_all();
+}
+
+}  // namespace gneiss

@@ -1,0 +1,87 @@
+#include "app/comparison_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "io/report/html_page.hpp"
+#include "io/report/svg_chart.hpp"
+
+namespace gneiss {
+namespace {
+
+using Number = std::function<double(const ComparedRun&)>;
+
+/// One line per scheme: error against cost, from setting to setting as the deck has them.
+std::vector<ChartSeries> work_and_precision(const std::vector<ComparedRun>& runs, const Number& cost,
+                                            const Number& error) {
+    std::vector<ChartSeries> all;
+    for (const ComparedRun& run : runs) {
+        if (!run.errors || run.errors->displacement == 0) continue;  // the reference itself
+        auto found = std::ranges::find(all, run.scheme, &ChartSeries::name);
+        if (found == all.end()) found = all.insert(all.end(), {run.scheme, {}, {}});
+        found->x.push_back(cost(run));
+        found->y.push_back(error(run));
+    }
+    return all;
+}
+
+/// One line per run against time, thinned out where there are many rows.
+std::vector<ChartSeries> histories(const std::vector<ComparedRun>& runs, const std::vector<double> RunHistory::*what) {
+    constexpr std::size_t most = 400;
+    std::vector<ChartSeries> all;
+    for (const ComparedRun& run : runs) {
+        const std::vector<double>& values = run.history.*what;
+        if (values.size() < 2) continue;
+        ChartSeries series{run.title(), {}, {}, false};
+        const std::size_t every = std::max<std::size_t>(1, values.size() / most);
+        for (std::size_t k = 1; k < values.size(); k += every) {  // the first row is before any step
+            series.x.push_back(run.history.t[k]);
+            series.y.push_back(values[k]);
+        }
+        all.push_back(std::move(series));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string comparison_report(const std::string& title, const std::string& reference,
+                              const std::vector<ComparedRun>& runs) {
+    HtmlPage page(title.empty() ? "Comparison of schemes" : title);
+    page.paragraph(
+        fmt::format("Errors are relative to {}: the largest difference of the states that were compared, over the "
+                    "largest value, both "
+                    "in the root mean square over the area. Processor time is that of the whole process, all threads, "
+                    "output included.",
+                    reference));
+    page.heading("Runs");
+    std::vector<std::vector<std::string>> rows;
+    for (const ComparedRun& run : runs) rows.push_back(comparison_row(run, true));
+    page.table(comparison_header(), rows);
+
+    page.heading("Work and precision");
+    const Number of_time = [](const ComparedRun& run) { return run.cost.cpu_time; };
+    const Number of_forces = [](const ComparedRun& run) { return static_cast<double>(run.force_evaluations); };
+    const auto chart = [&](const char* what, const Number& cost, const char* label, const Number& error) {
+        page.figure(svg_chart(fmt::format("Error of {} against {}", what, label), {label, true},
+                              {"relative error", true}, work_and_precision(runs, cost, error)),
+                    fmt::format("Error of {} against {}: further down and to the left is better.", what, label));
+    };
+    const Number displacement = [](const ComparedRun& run) { return run.errors->displacement; };
+    const Number stress = [](const ComparedRun& run) { return run.errors->stress.value_or(0); };
+    chart("displacement", of_time, "processor time, s", displacement);
+    chart("displacement", of_forces, "force evaluations", displacement);
+    chart("stress", of_time, "processor time, s", stress);
+
+    page.heading("Histories");
+    page.figure(svg_chart("Energy balance error", {"t, s"}, {"balance error", true},
+                          histories(runs, &RunHistory::balance_error)),
+                "Energy left over by the ledger, over its largest entry.");
+    page.figure(svg_chart("Step size", {"t, s"}, {"step, s", true}, histories(runs, &RunHistory::dt)),
+                "Steps as they were accepted.");
+    return page.text();
+}
+
+}  // namespace gneiss
