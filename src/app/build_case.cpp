@@ -173,6 +173,11 @@ Case build_case(CaseOptions options) {
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
     if (!cracks && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
         built.warnings.push_back("material.strength: has no effect without fracture.method");
+    if (options.run.event_tolerance > 0 && !extrinsic)
+        built.warnings.push_back(
+            "run.event_tolerance: has no effect without fracture.method = extrinsic: only sides that open at their "
+            "strength are "
+            "searched for");
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     Joints* const cohesion = cracks ? static_cast<Joints*>(parts.interactions.front().get()) : nullptr;

@@ -116,11 +116,20 @@ void Cracking::part(const Change& change, State& state) {
     ++n_events_;
 }
 
+std::vector<double> Cracking::save() const {
+    std::vector<double> saved{largest_overshoot_, first_opening_.value_or(-1)};
+    saved.insert(saved.end(), record_.begin(), record_.end());
+    return saved;
+}
+
 void Cracking::replay(const std::vector<double>& record) {
     State any = parts_.solid.initial_state();
     const auto bad = [] { return InputError("cracks", "of the checkpoint do not fit the mesh"); };
     const auto n_sides = static_cast<double>(parts_.inner.sides().size());
-    std::size_t next = 0;
+    if (record.size() < 2) throw bad();
+    largest_overshoot_ = record[0];
+    if (record[1] >= 0) first_opening_ = record[1];
+    std::size_t next = 2;
     const auto take = [&] {
         if (!(next < record.size() && record[next] >= 0 && record[next] <= n_sides)) throw bad();
         const auto n = static_cast<std::size_t>(record[next++]);

@@ -66,8 +66,9 @@ public:
     /// When the first side has opened, s.
     std::optional<double> first_opening() const { return first_opening_; }
 
-    /// What has come apart, in the order in which it did: enough to come to the same mesh again.
-    std::vector<double> save() const { return record_; }
+    /// What has been told of the openings, and what has come apart, in the order in which it did: enough to come to the
+    /// same mesh again.
+    std::vector<double> save() const;
     /// Lets a mesh as it was at the start come apart as told, together with all that hangs on it.
     /// @throws InputError if it does not fit the mesh
     void replay(const std::vector<double>& record);

@@ -145,6 +145,60 @@ TEST_F(ProgramFracture, Extrinsic_UnderOtherIntegrators_BreaksAlike) {
         EXPECT_NEAR(broken(integrator), explicit_loop, 0.15 * explicit_loop) << integrator;
 }
 
+/// A plate that is stretched evenly, u_x = 10 x t: all of it reaches its strength at one instant.
+const std::string stretched_deck = R"toml(
+mesh = { generator = "rectangle", width = 0.04, height = 0.02, cells = [4, 2], pattern = "crossed" }
+solid = { plane = "strain" }
+run = { t_end = 1.3e-5 }
+fracture = { method = "extrinsic" }
+[[material]]
+density = 2500.0
+constants = { E = 30e9, nu = 0.2 }
+strength = { tensile = 4e6, cohesion = 1e8, friction = 0, residual_friction = 0, G_I = 20, G_II = 60 }
+[[initial]]
+velocity = ["10*x", 0]
+[[boundary]]
+on = "left"
+type = "velocity"
+value = ["10*x", 0]
+[[boundary]]
+on = "right"
+type = "velocity"
+value = ["10*x", 0]
+[[boundary]]
+on = "top"
+type = "velocity"
+value = ["10*x", 0]
+[[boundary]]
+on = "bottom"
+type = "velocity"
+value = ["10*x", 0]
+)toml";
+
+TEST_F(ProgramFracture, EventTolerance_TheSameInstantUnderEveryScheme) {
+    put("stretched.toml", stretched_deck);
+    const auto opening = [&](const std::string& integrator, const std::string& tolerance) {
+        const Ended ended = gneiss({"run", "stretched.toml", "--quiet", "--out", "out", "--set",
+                                    "integrator={ " + integrator + " }", "run.event_tolerance=" + tolerance});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return summary("out").at("cracks").at("first_opening_s").get<double>();
+    };
+    const double exact = opening("type = \"central_difference\"", "1e-13");
+    // f_t over the P-wave modulus and the rate, to the order of the strain, 1.2e-4
+    const double modulus = 30e9 * 0.8 / (1.2 * 0.6);
+    EXPECT_NEAR(exact, 4e6 / (modulus * 10), 3e-4 * exact);
+    for (const char* integrator :
+         {R"(type = "central_difference")", R"(type = "generalized_alpha", dt = 1e-6)",
+          R"(type = "newmark", dt = 1e-6)", R"(type = "hht_alpha", dt = 1e-6)", R"(type = "cvode", rtol = 1e-6)",
+          R"(type = "arkode", rtol = 1e-6)", R"(type = "ida", rtol = 1e-6)"}) {
+        const double late = opening(integrator, "1e-9") - exact;
+        EXPECT_GE(late, -1e-13) << integrator;
+        EXPECT_LE(late, 1e-9) << integrator;
+        EXPECT_LT(summary("out").at("cracks").at("largest_overshoot"), 1e-4) << integrator;  // growth in 1e-9 s
+    }
+    EXPECT_GT(opening("type = \"generalized_alpha\", dt = 1e-6", "0") - exact, 1e-7) << "a step late without it";
+}
+
 TEST_F(ProgramFracture, Extrinsic_BeforeAnythingBreaks_IsTheWholeSolidToTheBit) {
     const std::string tension = "material.0.strength.tensile=1e9", shear = "material.0.strength.cohesion=1e9";
     energies({"--set", "fracture.method=extrinsic", tension, shear, "material.0.strength.G_I=1e6",

@@ -121,6 +121,9 @@ TEST_P(Cracks, Replay_ComesToTheSameMesh) {
     solid.cracking->look(next);
     test::CrackingSolid other = test::cracking_solid(mesh(), rock_that_cracks());
     other.cracking->replay(solid.cracking->save());
+    EXPECT_EQ(other.cracking->largest_overshoot(), solid.cracking->largest_overshoot());
+    EXPECT_EQ(other.cracking->first_opening(), solid.cracking->first_opening());
+    EXPECT_TRUE(other.cracking->first_opening());
     EXPECT_EQ(other.mesh->connectivity, solid.mesh->connectivity);
     EXPECT_EQ(other.mesh->n_nodes(), solid.mesh->n_nodes());
     ASSERT_EQ(other.system->layout().n_history, next.history.size());
@@ -130,7 +133,8 @@ TEST_P(Cracks, Replay_ComesToTheSameMesh) {
     system.force(next, Trial::of(next), force);
     other.system->force(next, Trial::of(next), same);
     EXPECT_EQ(force, same);
-    EXPECT_THROW(other.cracking->replay({1, 1e6}), InputError);
+    EXPECT_THROW(other.cracking->replay({0, -1, 1, 1e6}), InputError);
+    EXPECT_THROW(other.cracking->replay({0}), InputError);
 }
 
 TEST(StrengthWatch, Index_IsNeverBelowTheEnvelopeOfAnyDirection) {
