@@ -44,6 +44,7 @@ public:
     std::size_t part_of_side(std::size_t joint) const override {
         return joint > 0 && sides_[joint - 1] == sides_[joint] ? 1 : 0;
     }
+    bool irreversible() const override { return true; }  // also before the first joint opens
     std::size_t n_history() const override { return n_packs() * (1 + history_rows * pack_width); }
     void initial_history(std::span<double> history) const override;
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
