@@ -1,40 +1,15 @@
 #include "integrators/central_difference.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
-#include "integrators/lanczos.hpp"
+#include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
-namespace {
-
-// How often the bound is looked at: twice as rarely while it stands still, twice as often when it moves. A change of
-// the step by the safety factor takes far longer than this in any resolved motion.
-constexpr double first_interval = 64, shortest_interval = 8, longest_interval = 1024;
-constexpr double still = 0.005, moving = 0.02;  // relative change of the critical step between two looks
-
-}  // namespace
-
-void CentralDifference::Options::validate() const {
-    std::vector<Problem> problems;
-    if (!(safety > 0 && safety <= 1))
-        problems.push_back({"integrator.safety", fmt::format("given {}, must be in (0, 1]", safety)});
-    if (!(dt >= 0 && std::isfinite(dt)))
-        problems.push_back({"integrator.dt", fmt::format("given {} s, must be >= 0 s", dt)});
-    if (!(bound_interval >= 0))
-        problems.push_back({"integrator.bound_interval", fmt::format("given {}, must be >= 0", bound_interval)});
-    if (!problems.empty()) throw InputError(problems);
-}
-
-CentralDifference::CentralDifference(const Options& options) : options_(options) { options_.validate(); }
-
-double CentralDifference::critical_time_step(const FrequencyBound& bound) {
-    return 2 / (bound.damping_rate + std::hypot(bound.damping_rate, bound.omega));
-}
+CentralDifference::CentralDifference(const Options& options) : step_(options, {}) { options.validate(); }
 
 void CentralDifference::allocate(const SemiDiscrete& system) {
     const Layout layout = system.layout();
@@ -49,77 +24,26 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
     next_.history.assign(layout.n_history, 0.0);
     const auto constraints = system.constraints();
     absorbing_.clear();
-    for (const Damping::Block& block : system.damping().blocks) {
-        AbsorbingNode node{block, {}, {}, false, false, 0, 0};
-        for (std::size_t k = 0; k < constraints.size(); ++k) {
-            if (constraints[k].dof / 2 != static_cast<std::size_t>(block.node)) continue;
-            (constraints[k].dof % 2 == 0 ? node.x_prescribed : node.y_prescribed) = true;
-            (constraints[k].dof % 2 == 0 ? node.x_constraint : node.y_constraint) = k;
-        }
-        absorbing_.push_back(node);
-    }
+    for (const AbsorbingNode& node : absorbing_nodes(system)) absorbing_.push_back({node, {}, {}});
     special_.clear();
     for (const Constraint& constraint : constraints) special_.push_back(constraint.dof);
-    for (const AbsorbingNode& node : absorbing_) {
-        const auto x = 2 * static_cast<std::size_t>(node.block.node);
-        if (!node.x_prescribed) special_.push_back(x);
-        if (!node.y_prescribed) special_.push_back(x + 1);
+    for (const HalfKicked& node : absorbing_) {
+        if (!node.x_prescribed) special_.push_back(node.x());
+        if (!node.y_prescribed) special_.push_back(node.y());
     }
     const std::size_t n = constraints.size();
     for (auto* values : {&prescribed_, &middle_, &end_velocity_, &net_, &net_before_, &reactions_})
         values->assign(n, 0.0);
 }
 
-void CentralDifference::evaluate_bound(const SemiDiscrete& system, const State& state) {
-    const double before = critical_;
-    bound_ = system.frequency_bound(state);
-    take_bound(system, state);
-    const double change = std::abs(critical_ - before) / critical_;
-    if (options_.bound_interval > 0)
-        bound_interval_ = options_.bound_interval;
-    else if (bound_interval_ == 0)
-        bound_interval_ = first_interval;
-    else if (change < still)
-        bound_interval_ = std::min(2 * bound_interval_, longest_interval);
-    else if (change > moving)
-        bound_interval_ = std::max(bound_interval_ / 2, shortest_interval);
-    steps_since_bound_ = 0;
-}
-
-void CentralDifference::take_bound(const SemiDiscrete& system, const State& state) {
-    FrequencyBound bound = bound_;
-    if (options_.lanczos) bound.omega = std::min(bound.omega, lanczos_frequency_bound(system, state));
-    critical_ = critical_time_step(bound);
-    if (!(critical_ > 0 && std::isfinite(critical_)))
-        throw RecoverableError(fmt::format("no stable time step at t = {:.9g} s: omega <= {}, damping rate <= {}",
-                                           state.t, bound.omega, bound.damping_rate));
-}
-
 void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
-    const bool bound_holds = why == StartReason::resize && critical_ > 0;  // what is new are bonds
     // of this integrator's last acceleration: there is none before a run begins
     const double measure_before = a_.empty() ? 0 : acceleration_measure();
     if (anew) allocate(system);
-    if (bound_holds) {
-        const double of_bonds = system.bond_omega_squared(state);
-        bound_.omega = std::sqrt(std::max(0.0, bound_.omega * bound_.omega - bound_.of_bonds + of_bonds));
-        bound_.of_bonds = of_bonds;
-        take_bound(system, state);
-        // what has come apart deforms faster than before
-        if (options_.bound_interval == 0) bound_interval_ = std::min(bound_interval_, first_interval);
-    } else if (anew) {
-        bound_interval_ = 0;
-        evaluate_bound(system, state);
-        if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
-    } else if (options_.bound_interval == 0) {
-        // what has been switched on may deform the solid soon; the count of steps goes on, so that frequent switches
-        // do not put the next look off for ever
-        bound_interval_ = std::min(bound_interval_, first_interval);
-    }
+    step_.start(system, state, why);
     hold_constraints(system, state, why);
-    // they may have strained the solid
-    if (anew && !bound_holds && !system.constraints().empty()) evaluate_bound(system, state);
+    step_.supports_held(system, state, why);
     if (why == StartReason::fresh && remembers()) {
         // prescribed displacements may have strained the solid
         system.force_and_update(state, Trial::of(state), a_, next_.z, next_.history);
@@ -151,19 +75,15 @@ void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
 }
 
 double CentralDifference::acceleration_measure() const {
-    return 0.125 * dt_ * dt_ * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
-               double sum = 0;
-               for (std::size_t i = first; i < last; ++i) sum += a_[i] * a_[i] / inverse_mass_[i];
-               return sum;
-           });
+    return leapfrog_excess(step_.dt(), a_, inverse_mass_, partial_);
 }
 
 void CentralDifference::hold_constraints(const SemiDiscrete& system, State& state, StartReason why) {
     const auto constraints = system.constraints();
     if (constraints.empty()) return;
     system.constraint_values(state.t, state.last_event, prescribed_);
-    system.constraint_values(state.t + 0.5 * dt_, state.last_event, middle_);
-    system.constraint_values(state.t + dt_, state.last_event, end_velocity_);
+    system.constraint_values(state.t + 0.5 * step_.dt(), state.last_event, middle_);
+    system.constraint_values(state.t + step_.dt(), state.last_event, end_velocity_);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const std::size_t dof = constraints[k].dof;
         const double before = state.v[dof];
@@ -171,7 +91,8 @@ void CentralDifference::hold_constraints(const SemiDiscrete& system, State& stat
             state.v[dof] = prescribed_[k];
         } else {
             if (why == StartReason::fresh) state.u[dof] = prescribed_[k];
-            state.v[dof] = (-3 * prescribed_[k] + 4 * middle_[k] - end_velocity_[k]) / dt_;  // order 2, from the right
+            state.v[dof] =
+                (-3 * prescribed_[k] + 4 * middle_[k] - end_velocity_[k]) / step_.dt();  // order 2, from the right
         }
         // a jump of the velocity is work of the support; before the first step it belongs to the initial energy
         if (why != StartReason::fresh)
@@ -180,22 +101,9 @@ void CentralDifference::hold_constraints(const SemiDiscrete& system, State& stat
     }
 }
 
-double CentralDifference::choose_step(double remaining) const {
-    const double limit = options_.dt > 0 ? options_.dt : options_.safety * critical_;
-    // equal steps up to the next stop; a remainder of round-off is no step of its own
-    constexpr double round_off = 1e-9;
-    return remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
-}
-
 void CentralDifference::plan_step(const SemiDiscrete& system, const State& state, double t_stop) {
-    if (steps_since_bound_ >= bound_interval_) evaluate_bound(system, state);
-    const double remaining = t_stop - state.t, dt = choose_step(remaining);
-    if (options_.dt > critical_)
-        throw RecoverableError(
-            fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s", options_.dt,
-                        critical_, state.t));
-    dt_ = dt;
-    next_.t = dt == remaining ? t_stop : state.t + dt;
+    step_.plan(system, state, t_stop);
+    next_.t = step_.dt() == t_stop - state.t ? t_stop : state.t + step_.dt();
     next_.last_event = state.last_event;
 }
 
@@ -218,22 +126,22 @@ StepReport CentralDifference::advance_unseen(const SemiDiscrete& system, State& 
         } catch (...) {
             if (n_steps == 1) throw;
             synchronise(system, state, dt_before);  // what went wrong will again when it is the first step
-            return {state.t, dt_, 0, n_steps + 1, n_steps - 1};
+            return {state.t, step_.dt(), 0, n_steps + 1, n_steps - 1};
         }
-        ++steps_since_bound_;
+        step_.count();
         const bool seen = n_steps == most || !(next_.t < std::min(t_look, t_stop));
-        if (!unseen || seen || steps_since_bound_ >= bound_interval_ || system.stirred(next_)) break;
+        if (!unseen || seen || step_.look_due() || system.stirred(next_)) break;
         remember_special();
         kick_special(system, state);
         add_path_energies(system, state);
         accept_unseen(state);
-        dt_before = dt_;
+        dt_before = step_.dt();
         plan_step(system, state, t_stop);
     }
     kick(system, state);
     add_path_energies(system, state);
     std::swap(state, next_);
-    return {state.t, dt_, 0, n_steps, n_steps};
+    return {state.t, step_.dt(), 0, n_steps, n_steps};
 }
 
 void CentralDifference::evaluate(const SemiDiscrete& system, const State& state) {
@@ -272,7 +180,7 @@ public:
         : scheme_(scheme), state_(state), half_before_(0.5 * dt_before) {}
 
     void bring(std::size_t first, std::size_t last) const override {
-        const double half_before = half_before_, half = 0.5 * scheme_.dt_, dt = scheme_.dt_;
+        const double half_before = half_before_, half = 0.5 * scheme_.step_.dt(), dt = scheme_.step_.dt();
         const double *u = state_.u.data(), *f = scheme_.a_.data(), *inverse_mass = scheme_.inverse_mass_.data();
         double *u_next = scheme_.next_.u.data(), *v_half = scheme_.next_.v.data();
         const std::size_t n = scheme_.a_.size();
@@ -305,8 +213,8 @@ private:
 
 void CentralDifference::kick_on_and_evaluate(const SemiDiscrete& system, const State& state, double dt_before) {
     for (const std::size_t dof : special_) {
-        next_.v[dof] = state.v[dof] + 0.5 * dt_ * a_[dof];
-        next_.u[dof] = state.u[dof] + dt_ * next_.v[dof];
+        next_.v[dof] = state.v[dof] + 0.5 * step_.dt() * a_[dof];
+        next_.u[dof] = state.u[dof] + step_.dt() * next_.v[dof];
     }
     prescribe(system, state);
     moved_.clear();
@@ -318,14 +226,14 @@ void CentralDifference::kick_on_and_evaluate(const SemiDiscrete& system, const S
 void CentralDifference::synchronise(const SemiDiscrete& system, State& state, double dt_before) {
     system.force(state, Trial::of(state), a_);
     for (const std::size_t dof : special_) next_.v[dof] = state.v[dof];
-    for (std::size_t i = 0; i < a_.size(); ++i) state.v[i] = next_.v[i] - 0.5 * dt_ * inverse_mass_[i] * a_[i];
+    for (std::size_t i = 0; i < a_.size(); ++i) state.v[i] = next_.v[i] - 0.5 * step_.dt() * inverse_mass_[i] * a_[i];
     for (const std::size_t dof : special_) state.v[dof] = next_.v[dof];
     settle(system, state);
-    dt_ = dt_before;
+    step_.set_dt(dt_before);
 }
 
 void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& state) {
-    const double dt = dt_, half = 0.5 * dt;
+    const double dt = step_.dt(), half = 0.5 * dt;
     const double *u = state.u.data(), *v = state.v.data(), *a = a_.data();
     double *u_next = next_.u.data(), *v_next = next_.v.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
@@ -354,7 +262,7 @@ void CentralDifference::kick_and_drift(const SemiDiscrete& system, const State& 
 void CentralDifference::prescribe(const SemiDiscrete& system, const State& state) {
     const auto constraints = system.constraints();
     if (constraints.empty()) return;
-    const double dt = dt_;
+    const double dt = step_.dt();
     system.constraint_values(state.t + 0.5 * dt, next_.last_event, middle_);
     system.constraint_values(next_.t, next_.last_event, prescribed_);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -374,7 +282,7 @@ void CentralDifference::prescribe(const SemiDiscrete& system, const State& state
 
 void CentralDifference::kick(const SemiDiscrete& system, const State& state) {
     remember_special();
-    const double half = 0.5 * dt_, c = system.damping().mass_proportional, inverse_damping = 1 / (1 + half * c);
+    const double half = 0.5 * step_.dt(), c = system.damping().mass_proportional, inverse_damping = 1 / (1 + half * c);
     const double *v_half = v_half_.empty() ? next_.v.data() : v_half_.data(), *inverse_mass = inverse_mass_.data();
     double *v = next_.v.data(), *a = a_.data();
     parallel_ranges(a_.size(), [=](std::size_t first, std::size_t last) {
@@ -392,15 +300,14 @@ void CentralDifference::remember_special() {
     const double* v_half = v_half_.empty() ? next_.v.data() : v_half_.data();
     net_before_.swap(net_);
     for (std::size_t k = 0; k < net_.size(); ++k) net_[k] = a_[special_[k]];  // f: constraints come first
-    for (AbsorbingNode& node : absorbing_) {
-        const auto x = 2 * static_cast<std::size_t>(node.block.node);
-        node.v_half = {v_half[x], v_half[x + 1]};
-        node.f = {a_[x], a_[x + 1]};
+    for (HalfKicked& node : absorbing_) {
+        node.v_half = {v_half[node.x()], v_half[node.y()]};
+        node.f = {a_[node.x()], a_[node.y()]};
     }
 }
 
 void CentralDifference::kick_special(const SemiDiscrete& system, const State& state) {
-    const double dt = dt_, half = 0.5 * dt, c = system.damping().mass_proportional;
+    const double dt = step_.dt(), half = 0.5 * dt, c = system.damping().mass_proportional;
     const auto constraints = system.constraints();
     const double* inverse_mass = inverse_mass_.data();
     double *v = next_.v.data(), *a = a_.data();
@@ -408,22 +315,13 @@ void CentralDifference::kick_special(const SemiDiscrete& system, const State& st
         next_.v[constraints[k].dof] = end_velocity_[k];
         a_[constraints[k].dof] = 0;
     }
-    for (const AbsorbingNode& node : absorbing_) {
-        const auto x = 2 * static_cast<std::size_t>(node.block.node), y = x + 1;
+    for (const HalfKicked& node : absorbing_) {
+        const std::size_t x = node.x(), y = node.y();
         const Damping::Block& block = node.block;
-        const double to_rate_x = half * inverse_mass[x], to_rate_y = half * inverse_mass[y];
-        const double xx = 1 + half * c + to_rate_x * block.xx, yy = 1 + half * c + to_rate_y * block.yy;
-        const double xy = to_rate_x * block.xy, yx = to_rate_y * block.xy;
-        const double right_x = node.v_half.x + to_rate_x * node.f.x, right_y = node.v_half.y + to_rate_y * node.f.y;
-        if (!node.x_prescribed && !node.y_prescribed) {
-            const double determinant = xx * yy - xy * yx;
-            v[x] = (yy * right_x - xy * right_y) / determinant;
-            v[y] = (xx * right_y - yx * right_x) / determinant;
-        } else if (!node.x_prescribed) {
-            v[x] = (right_x - xy * v[y]) / xx;
-        } else if (!node.y_prescribed) {
-            v[y] = (right_y - yx * v[x]) / yy;
-        }
+        node.solve(
+            c, half, inverse_mass_,
+            {node.v_half.x + half * inverse_mass[x] * node.f.x, node.v_half.y + half * inverse_mass[y] * node.f.y},
+            next_.v);
         if (!node.x_prescribed) a[x] = inverse_mass[x] * (node.f.x - block.xx * v[x] - block.xy * v[y]) - c * v[x];
         if (!node.y_prescribed) a[y] = inverse_mass[y] * (node.f.y - block.xy * v[x] - block.yy * v[y]) - c * v[y];
     }
@@ -441,28 +339,20 @@ void CentralDifference::subtract_damping(const SemiDiscrete& system, std::span<c
     for (std::size_t k = 0; k < constraints.size(); ++k)
         net[k] -= c * system.lumped_mass()[constraints[k].dof] * v[constraints[k].dof];
     for (const AbsorbingNode& node : absorbing_) {
-        const auto x = 2 * static_cast<std::size_t>(node.block.node), y = x + 1;
+        const std::size_t x = node.x(), y = node.y();
         if (node.x_prescribed) net[node.x_constraint] -= node.block.xx * v[x] + node.block.xy * v[y];
         if (node.y_prescribed) net[node.y_constraint] -= node.block.xy * v[x] + node.block.yy * v[y];
     }
 }
 
 double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State& state) const {
-    const auto mass = system.lumped_mass();
-    const double synchronised = 0.5 * ordered_sum(a_.size(), partial_, [&](std::size_t first, std::size_t last) {
-                                    double sum = 0;
-                                    for (std::size_t k = first; k < last; ++k) sum += mass[k] * state.v[k] * state.v[k];
-                                    return sum;
-                                });
-    return synchronised - acceleration_measure();
+    return synchronised_kinetic_energy(system, state.v, partial_) - acceleration_measure();
 }
 
 IntegratorMemory CentralDifference::save() const {
-    return {{"acceleration", a_},
-            {"net_force", net_},
-            {"reactions", reactions_},
-            {"step", {dt_, critical_, bound_interval_, steps_since_bound_}},
-            {"bound", {bound_.omega, bound_.damping_rate, bound_.of_bonds}}};
+    IntegratorMemory memory{{"acceleration", a_}, {"net_force", net_}, {"reactions", reactions_}};
+    step_.save(memory);
+    return memory;
 }
 
 void CentralDifference::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
@@ -473,13 +363,7 @@ void CentralDifference::load(const SemiDiscrete& system, State&, const Integrato
     a_ = take("acceleration", a_.size());
     net_ = take("net_force", net_.size());
     reactions_ = take("reactions", reactions_.size());
-    const std::vector<double>& step = take("step", 4);
-    dt_ = step[0];
-    critical_ = step[1];
-    bound_interval_ = step[2];
-    steps_since_bound_ = step[3];
-    const std::vector<double>& bound = take("bound", 3);
-    bound_ = {bound[0], bound[1], bound[2]};
+    step_.load(name(), memory);
 }
 
 }  // namespace gneiss

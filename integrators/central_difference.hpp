@@ -10,23 +10,15 @@
 
 #include <vector>
 
-#include "base/vec2.hpp"
+#include "integrators/absorbing_nodes.hpp"
+#include "integrators/stable_step.hpp"
 #include "system/integrator.hpp"
 
 namespace gneiss {
 
 class CentralDifference final : public Integrator {
 public:
-    struct Options {
-        double safety = 0.8;   ///< factor on the critical step, (0, 1]
-        double dt = 0;         ///< fixed step, s; 0: from the critical step
-        bool lanczos = false;  ///< bound omega by a Lanczos estimate of the assembled pencil, closer than the elements'
-
-        int bound_interval = 0;  ///< steps between two looks at the bound; 0: adapted to how fast it changes
-
-        /// @throws InputError
-        void validate() const;
-    };
+    using Options = StableStep::Options;
 
     explicit CentralDifference(const Options& options);
 
@@ -41,24 +33,17 @@ public:
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
 
-    /// Critical step of the bound last evaluated, s, without the safety factor.
-    double critical_time_step() const { return critical_; }
-
-    /// Stability limit with natural frequency omega (rad/s) and the damping rate c (1/s) of forces that are evaluated
-    /// at the velocity v(n-1/2) + dt/2 a(n-1): dt^2 omega^2 + 4 dt c <= 4, from an eigenvalue -1 of the recursion.
-    static double critical_time_step(const FrequencyBound& bound);
+    /// Critical step of the bound last evaluated, s, without the safety factor. For forces that are evaluated at the
+    /// velocity v(n-1/2) + dt/2 a(n-1) it is dt^2 omega^2 + 4 dt c <= 4, from an eigenvalue -1 of the recursion.
+    double critical_time_step() const { return step_.critical_time_step(); }
 
 private:
-    void evaluate_bound(const SemiDiscrete& system, const State& state);
-    /// The critical step of bound_.
-    void take_bound(const SemiDiscrete& system, const State& state);
     void allocate(const SemiDiscrete& system);
     /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
     void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
     /// dt^2/8 a . M a, J: what v(n) . M v(n)/2 exceeds v(n-1/2) . M v(n+1/2)/2 by.
     double acceleration_measure() const;
-    double choose_step(double remaining) const;
-    /// Looks at the bound if that is due, and chooses the next step: dt_, and the time in next_.
+    /// Chooses the next step, and the time in next_.
     void plan_step(const SemiDiscrete& system, const State& state, double t_stop);
     void kick_and_drift(const SemiDiscrete& system, const State& state);
     void prescribe(const SemiDiscrete& system, const State& state);
@@ -91,30 +76,22 @@ private:
     /// Subtracts C v from forces on the constrained degrees of freedom.
     void subtract_damping(const SemiDiscrete& system, std::span<const double> v, std::vector<double>& net) const;
 
-    /// A node of an absorbing boundary, solved for its two velocities together.
-    struct AbsorbingNode {
-        Damping::Block block;
-        Vec2<double> v_half, f;  ///< before the step's second half
-        bool x_prescribed, y_prescribed;
-        std::size_t x_constraint, y_constraint;  ///< where prescribed
+    /// Before the step's second half.
+    struct HalfKicked : AbsorbingNode {
+        Vec2<double> v_half, f;
     };
 
-    Options options_;
+    StableStep step_;
     std::vector<double> inverse_mass_;
     std::vector<double> a_;       ///< acceleration at the accepted state; f while a step is under way
     std::vector<double> v_half_;  ///< v(n+1/2), kept where the force needs another velocity
     State next_;
-    double dt_ = 0;  ///< last step, s
-    double critical_ = 0;
-    FrequencyBound bound_;
-    double bound_interval_ = 0;  ///< steps between two evaluations of the bound, adapted to how it changes
-    double steps_since_bound_ = 0;
 
     // constrained degrees of freedom
     std::vector<double> prescribed_, middle_;  ///< values at the end and in the middle of a step
     std::vector<double> end_velocity_;         ///< v(n+1) of prescribed motion
     std::vector<double> net_, net_before_, reactions_;
-    std::vector<AbsorbingNode> absorbing_;
+    std::vector<HalfKicked> absorbing_;
     std::vector<std::size_t> special_;  ///< degrees of freedom that are constrained or absorbing
     /// Where a step moves a special degree of freedom to.
     struct Moved {

@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "base/largest.hpp"
 #include "base/parallel.hpp"
-#include "integrators/free_part.hpp"
 #include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
 namespace {
 
 constexpr double shortest_part = 1e-6;  ///< of the step wanted, at which a run gives up
-/// The matrix at hand is kept as long as an iteration leaves no more than this of the forces out of balance.
-constexpr double progress = 0.1;
-
 /// Of Scheme::error_constant(), for errors of the next order not to rule the estimate.
 constexpr double smallest_error_constant = 0.01;
 
@@ -59,19 +54,18 @@ void GeneralizedAlpha::Options::validate() const {
                      "gamma = 1/2 - alpha_m + alpha_f = {}",
                      rtol, gamma, gamma - first_order));
     scales.check(problems);
-    solver.check(problems);
     need(longest >= 0 && std::isfinite(longest), "longest", fmt::format("given {} s, must be >= 0 s", longest));
-    need(tolerance > 0 && tolerance <= 0.01, "tolerance", fmt::format("given {}, must be in (0, 0.01]", tolerance));
-    need(most_iterations >= 1, "most_iterations", fmt::format("given {}, must be >= 1", most_iterations));
+    newton().check(problems);
     if (!problems.empty()) throw InputError(problems);
 }
 
-GeneralizedAlpha::GeneralizedAlpha(const Options& options) : options_(options), scales_(options.scales) {
+GeneralizedAlpha::GeneralizedAlpha(const Options& options)
+    : options_(options), newton_(options.newton(), options.name), scales_(options.scales) {
     options_.validate();
 }
 
 void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
-    const Tangent& tangent = tangent_of(system, options_.name);
+    newton_.bind(system);
     const Layout layout = system.layout();
     for (State* scratch : {&next_, &stage_}) {
         scratch->u.assign(layout.n_dof, 0.0);
@@ -79,15 +73,8 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     }
     next_.z.assign(layout.n_internal, 0.0);
     next_.history.assign(layout.n_history, 0.0);
-    for (auto* values : {&a_, &a_next_, &f_, &residual_}) values->assign(layout.n_dof, 0.0);
+    for (auto* values : {&a_, &a_next_, &f_}) values->assign(layout.n_dof, 0.0);
     reactions_.assign(system.constraints().size(), 0.0);
-    free_ = std::make_unique<FreeMatrix>(free_part(system, tangent));
-    full_values_.assign(tangent.n_nonzero(), 0.0);
-    values_.assign(free_->pattern().n_nonzero(), 0.0);
-    change_.assign(free_->n(), 0.0);
-    solver_ = make_linear_solver(options_.solver, tangent.symmetric());
-    if (free_->n() > 0) solver_->analyse(free_->pattern());
-    factorised_dt_ = 0;
     motion_.bind(system, omega_);
 }
 
@@ -106,7 +93,7 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
         if (options_.rtol > 0 && options_.longest > 0) dt_ = std::min(dt_, options_.longest);
     }
     system.force(state, Trial::of(state), f_);
-    ++counts_.evaluations;
+    ++newton_.counts().evaluations;
     motion_.reactions(system, state.v, f_, reactions_);
     subtract_damping(system, state.v, f_);
     const auto mass = system.lumped_mass();
@@ -121,7 +108,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
     const double remaining = t_stop - state.t, wanted = adaptive ? dt_ : options_.dt;
     motion_.step_from(system, state);
     StepReport report;
-    const std::size_t evaluations_before = counts_.evaluations;
+    const std::size_t evaluations_before = counts().evaluations;
     double limit = wanted;
     for (;; ++report.n_rejected) {
         constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
@@ -140,7 +127,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
             }
             limit = dt * std::max(0.2, 0.9 * std::cbrt(1 / e));
         } catch (const RecoverableError& failure) {
-            factorised_dt_ = 0;
+            newton_.drop_matrix();
             limit = dt / 2;
             why = failure.what();
         }
@@ -152,7 +139,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
     a_.swap(a_next_);
     scales_.include(state);
     report.t = state.t;
-    report.n_force = counts_.evaluations - evaluations_before;
+    report.n_force = counts().evaluations - evaluations_before;
     return report;
 }
 
@@ -165,7 +152,7 @@ void GeneralizedAlpha::choose_next_step(double dt, double limit, double error) {
 
 double GeneralizedAlpha::error(double dt) const {
     const double factor = dt * dt * options_.scheme.error_constant();
-    const auto free = free_->free();
+    const auto free = newton_.free();
     const double sum = ordered_sum(free.size(), partial_, [&](std::size_t first, std::size_t last) {
         double part = 0;
         for (std::size_t i = first; i < last; ++i) {
@@ -197,7 +184,7 @@ void GeneralizedAlpha::predict(const SemiDiscrete& system, const State& state, d
 
 void GeneralizedAlpha::place(const State& state, double dt) {
     const auto [alpha_m, alpha_f, beta, gamma] = options_.scheme;
-    const auto free = free_->free();
+    const auto free = newton_.free();
     parallel_ranges(free.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::size_t dof = free[i];
@@ -209,73 +196,28 @@ void GeneralizedAlpha::place(const State& state, double dt) {
     });
 }
 
-double GeneralizedAlpha::evaluate_stage(const SemiDiscrete& system, const State& state) {
-    system.force(state, {stage_.t, stage_.last_event, stage_.u, stage_.v, {}}, f_);
-    ++counts_.evaluations;
-    subtract_damping(system, stage_.v, f_);
-    const auto mass = system.lumped_mass();
-    const double alpha_m = options_.scheme.alpha_m;
-    double largest = largest_magnitude(f_);
-    for (const std::size_t dof : free_->free()) {
-        const double inertia = mass[dof] * ((1 - alpha_m) * a_next_[dof] + alpha_m * a_[dof]);
-        largest = std::max(largest, std::abs(inertia));
-        residual_[dof] = inertia - f_[dof];
-    }
-    return largest;
-}
-
-void GeneralizedAlpha::factorise(const SemiDiscrete& system, const State& state, double dt) {
-    const auto [alpha_m, alpha_f, beta, gamma] = options_.scheme;
-    const double velocity = (1 - alpha_f) * gamma * dt;
-    system.tangent()->assemble(
-        state, {stage_.t, stage_.last_event, stage_.u, stage_.v, {}},
-        {.mass = 1 - alpha_m, .damping = velocity, .stiffness = (1 - alpha_f) * beta * dt * dt, .velocity = velocity},
-        full_values_);
-    free_->take_values(full_values_, values_);
-    solver_->factorise(values_);
-    factorised_dt_ = dt;
-    ++counts_.factorisations;
-}
-
 void GeneralizedAlpha::solve(const SemiDiscrete& system, const State& state, double dt) {
     predict(system, state, dt);
-    if (free_->n() == 0) return;
-    const double beta = options_.scheme.beta;
-    double before = 0;
-    for (int iteration = 0;; ++iteration) {
-        const double largest = evaluate_stage(system, state);
-        free_->take(residual_, change_);
-        const double left = largest_magnitude(change_);
-        if (!std::isfinite(left)) throw RecoverableError("the forces are not finite");
-        if (left <= options_.tolerance * largest) return;
-        if (iteration == options_.most_iterations)
-            throw RecoverableError(
-                fmt::format("{} iterations of Newton's method leave {:.3g} of the forces out of balance", iteration,
-                            left / largest));
-        // steps that share an interval evenly differ by round-off
-        constexpr double same = 1e-9;
-        const bool stalled = iteration > 0 && left > progress * before;
-        if (std::abs(factorised_dt_ - dt) > same * dt || stalled) factorise(system, state, dt);
-        before = left;
-        ++counts_.iterations;
-        solver_->solve(change_, change_);
-        // round-off: what is left moves no digit of the step
-        constexpr double eps = 1e-14;
-        double moved = 0, step = 0;
-        const auto free = free_->free();
-        for (std::size_t i = 0; i < free.size(); ++i) {
-            a_next_[free[i]] -= change_[i];
-            moved = std::max(moved, std::abs(beta * dt * dt * change_[i]));
-            step = std::max({step, std::abs(next_.u[free[i]] - state.u[free[i]]), dt * std::abs(next_.v[free[i]])});
-        }
-        place(state, dt);
-        if (moved <= eps * step) return;
-    }
+    const auto [alpha_m, alpha_f, beta, gamma] = options_.scheme;
+    const double velocity = (1 - alpha_f) * gamma * dt, m = alpha_m;  // no structured binding in a lambda
+    newton_.solve(system, state,
+                  {.at = stage_,
+                   .end = next_,
+                   .dt = dt,
+                   .matrix_dt = dt,
+                   .factors = {.mass = 1 - alpha_m,
+                               .damping = velocity,
+                               .stiffness = (1 - alpha_f) * beta * dt * dt,
+                               .velocity = velocity},
+                   .displacement = beta * dt * dt,
+                   .place = [&, dt] { place(state, dt); },
+                   .acceleration = [this, m](std::size_t dof) { return (1 - m) * a_next_[dof] + m * a_[dof]; }},
+                  a_next_);
 }
 
 void GeneralizedAlpha::finish_step(const SemiDiscrete& system, const State& state) {
     system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, next_.z, next_.history);
-    ++counts_.evaluations;
+    ++newton_.counts().evaluations;
     system.add_path_energies(state, next_);
     const auto constraints = system.constraints();
     for (std::size_t k = 0; k < constraints.size(); ++k)
@@ -289,19 +231,13 @@ double GeneralizedAlpha::kinetic_energy(const SemiDiscrete& system, const State&
     return synchronised_kinetic_energy(system, state.v, partial_);
 }
 
-double GeneralizedAlpha::matrix_bytes() const {
-    return static_cast<double>((full_values_.size() + values_.size()) * sizeof(double) + free_->bytes()) +
-           (free_->n() > 0 ? solver_->expected_factor_bytes() : 0.0);
-}
+double GeneralizedAlpha::matrix_bytes() const { return newton_.bytes(); }
 
 IntegratorMemory GeneralizedAlpha::save() const {
     return {{"acceleration", a_}, {"reactions", reactions_}, {"scales", scales_.save()}, {"step", {dt_, omega_}}};
 }
 
-void GeneralizedAlpha::forget(const SemiDiscrete&, State&) {
-    solver_->forget();
-    factorised_dt_ = 0;
-}
+void GeneralizedAlpha::forget(const SemiDiscrete&, State&) { newton_.forget(); }
 
 void GeneralizedAlpha::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
     const auto take = [&](const char* entry, std::size_t size) -> const std::vector<double>& {

@@ -9,13 +9,12 @@
 // evaluations. Laws with memory take the exact update from the last accepted state to the stage, and to the end once
 // the step is accepted. Newton's method with exact tangents; a factorised matrix is kept while it makes progress.
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/problem_scales.hpp"
-#include "linear/free_matrix.hpp"
+#include "integrators/stage_newton.hpp"
 #include "system/integrator.hpp"
 
 namespace gneiss {
@@ -50,11 +49,9 @@ public:
         int most_iterations = 20;    ///< of Newton's method in a step, >= 1
         LinearSolverOptions solver;  ///< of the linear systems
 
+        StageNewton::Options newton() const { return {tolerance, most_iterations, solver}; }
         /// @throws InputError
         void validate() const;
-    };
-    struct Counts {
-        std::size_t evaluations = 0, iterations = 0, factorisations = 0;
     };
 
     explicit GeneralizedAlpha(const Options& options);
@@ -65,14 +62,14 @@ public:
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions() const override { return reactions_; }
-    WorkCounts work() const override { return {counts_.factorisations, counts_.factorisations, counts_.iterations}; }
+    WorkCounts work() const override { return newton_.work(); }
     double matrix_bytes() const override;
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
     /// The matrix that later steps would start with.
     void forget(const SemiDiscrete& system, State& state) override;
 
-    const Counts& counts() const { return counts_; }
+    const StageNewton::Counts& counts() const { return newton_.counts(); }
 
 private:
     void allocate(const SemiDiscrete& system);
@@ -81,9 +78,6 @@ private:
     void predict(const SemiDiscrete& system, const State& state, double dt);
     /// next_ and stage_ from the accelerations a_next_.
     void place(const State& state, double dt);
-    /// M a + C v - f at the stage into residual_; returns the largest of its forces.
-    double evaluate_stage(const SemiDiscrete& system, const State& state);
-    void factorise(const SemiDiscrete& system, const State& state, double dt);
     /// Local error over its tolerance.
     double error(double dt) const;
     /// The next step after one of length dt <= limit, from its error.
@@ -91,17 +85,14 @@ private:
     void finish_step(const SemiDiscrete& system, const State& state);
 
     Options options_;
-    Counts counts_;
+    StageNewton newton_;
     PrescribedMotion motion_;
     ProblemScales scales_;
-    std::unique_ptr<FreeMatrix> free_;
-    std::unique_ptr<LinearSolver> solver_;
-    double factorised_dt_ = 0;  ///< step of the matrix at hand, s; 0: none
-    double dt_ = 0;             ///< next step, s
-    double omega_ = 0;          ///< upper bound of the natural frequencies at the start of the run, rad/s
+    double dt_ = 0;     ///< next step, s
+    double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     State next_, stage_;
     std::vector<double> a_, a_next_;  ///< accelerations, prescribed ones included
-    std::vector<double> f_, residual_, change_, full_values_, values_;
+    std::vector<double> f_;
     std::vector<double> reactions_;
     mutable std::vector<double> partial_;
 };

@@ -102,7 +102,7 @@ void PrescribedMotion::hold(const SemiDiscrete& system, State& state, StartReaso
 }
 
 double PrescribedMotion::sample(const SemiDiscrete& system, double t) {
-    const double first = std::max(t0_, t - static_cast<double>(n_points - 1) * spacing_);
+    const double first = std::min(t, std::max(t0_, t - static_cast<double>(n_points - 1) * spacing_));
     for (std::size_t k = 0; k < n_points; ++k)
         system.constraint_values(first + static_cast<double>(k) * spacing_, last_event_, values_[k]);
     return (t - first) / spacing_;

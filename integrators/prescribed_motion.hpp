@@ -4,7 +4,7 @@
 // A prescribed displacement is differentiated along the polynomial through five values a small part of the fastest
 // period apart; a prescribed velocity is integrated from the last accepted state by the Gauss rule of order 10. Both
 // are far more accurate than any scheme that uses them, and look at no instant before the last accepted one, where a
-// load may have jumped.
+// load may have jumped, unless they are asked for such an instant.
 
 #include <array>
 #include <span>
@@ -31,7 +31,7 @@ public:
     /// where they strain the solid; steps count from there.
     void hold(const SemiDiscrete& system, State& state, StartReason why);
 
-    /// Finds displacement and velocity at t >= accepted.t, s.
+    /// Finds displacement and velocity at t, s; earlier than accepted.t only of motion that is smooth there.
     void evaluate(const SemiDiscrete& system, double t);
     std::span<const double> displacement() const { return u_; }  ///< m, shape (constraints)
     std::span<const double> velocity() const { return v_; }      ///< m/s

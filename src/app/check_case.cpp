@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/build_case.hpp"
+#include "app/make_integrator.hpp"
 #include "app/schedule.hpp"
 #include "app/threads.hpp"
 #include "io/deck/deck.hpp"
@@ -72,7 +73,7 @@ void print_memory(const Case& built, std::ostream& out) {
 void print_cost_of_steps(const Case& built, const Measured& measured, std::ostream& out) {
     const IntegratorOptions& integrator = built.options.integrator;
     const double t_end = built.options.run.t_end, n_steps = std::ceil(t_end / measured.dt);
-    const bool from_bound = integrator.type == "central_difference" && integrator.dt == 0;
+    const bool from_bound = has_critical_step(integrator) && integrator.dt == 0;
     const bool from_error = !from_bound && (integrator.dt == 0 || integrator.adaptive);
     const Schedule schedule(built.options);
     if (from_error) {

@@ -5,14 +5,22 @@
 #include <stdexcept>
 
 #include "integrators/arkode.hpp"
+#include "integrators/bathe.hpp"
 #include "integrators/central_difference.hpp"
 #include "integrators/cvode.hpp"
 #include "integrators/dynamic_relaxation.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/noh_bathe.hpp"
 #include "integrators/quasi_static.hpp"
+#include "integrators/verlet.hpp"
 
 namespace gneiss {
+
+bool has_critical_step(const IntegratorOptions& o) {
+    return o.type == "central_difference" || o.type == "verlet" || o.type == "noh_bathe";
+}
+
 namespace {
 
 bool is_alpha(const IntegratorOptions& o) {
@@ -45,6 +53,8 @@ LoadStepping::Options load_steps(const IntegratorOptions& o) {
     return {o.tolerance, o.step, o.longest, o.shortest, o.most_iterations};
 }
 
+StableStep::Options stable_step(const IntegratorOptions& o) { return {o.safety, o.dt, o.lanczos}; }
+
 std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
     using Scheme = GeneralizedAlpha::Scheme;
     GeneralizedAlpha::Options options;
@@ -60,6 +70,20 @@ std::unique_ptr<Integrator> make_alpha(const IntegratorOptions& o) {
     if (o.most_iterations > 0) options.most_iterations = o.most_iterations;
     options.solver = linear_solver(o);
     return std::make_unique<GeneralizedAlpha>(options);
+}
+
+std::unique_ptr<Integrator> make_bathe(const IntegratorOptions& o) {
+    Bathe::Options options{.rho_inf = o.rho_inf, .dt = o.dt};
+    options.newton.tolerance = o.tolerance;
+    if (o.most_iterations > 0) options.newton.most_iterations = o.most_iterations;
+    options.newton.solver = linear_solver(o);
+    return std::make_unique<Bathe>(options);
+}
+
+std::unique_ptr<Integrator> make_verlet(const IntegratorOptions& o) {
+    using Form = Verlet::Form;
+    return std::make_unique<Verlet>(
+        Verlet::Options{stable_step(o), o.position_form ? Form::position : Form::velocity, o.composition});
 }
 
 std::unique_ptr<Integrator> make_cvode(const IntegratorOptions& o) {
@@ -116,8 +140,10 @@ void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system)
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
     refuse_idle_keys(o);
-    if (o.type == "central_difference")
-        return std::make_unique<CentralDifference>(CentralDifference::Options{o.safety, o.dt, o.lanczos});
+    if (o.type == "central_difference") return std::make_unique<CentralDifference>(stable_step(o));
+    if (o.type == "verlet") return make_verlet(o);
+    if (o.type == "noh_bathe") return std::make_unique<NohBathe>(NohBathe::Options{stable_step(o), o.split});
+    if (o.type == "bathe") return make_bathe(o);
     if (o.type == "quasi_static")
         return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), linear_solver(o), o.matrix_free});
     if (o.type == "dynamic_relaxation") return std::make_unique<DynamicRelaxation>(load_steps(o));

@@ -11,6 +11,9 @@ namespace gneiss {
 /// @throws InputError with every option out of its range, or without effect beside the others
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options);
 
+/// Whether it is explicit and takes its step from the stability bound where none is given.
+bool has_critical_step(const IntegratorOptions& options);
+
 /// @throws InputError if the linear solver cannot take the system's tangents
 void check_linear_solver(const IntegratorOptions& options, const SemiDiscrete& system);
 

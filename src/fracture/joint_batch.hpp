@@ -36,8 +36,7 @@ class JointBatch final : public Joints {
     /// Whether there is a range in which nothing happens to a joint, and it is a pair of springs.
     static constexpr bool has_elastic_range = requires { &Law::elastic_reach; }
     &&!extrinsic;
-    /// Way of an end over the length past which a failed joint no longer speaks for its faces, which contact takes for
-    /// one until then.
+    /// Way of an end over the length past which a failed joint no longer speaks for its faces.
     static constexpr double far_way = 0.1;
 
 public:
@@ -50,6 +49,7 @@ public:
     std::size_t part_of_side(std::size_t joint) const override {
         return joint > 0 && sides_[joint - 1] == sides_[joint] ? 1 : 0;
     }
+    bool irreversible() const override { return true; }  // also before the first joint opens
     std::size_t n_history() const override { return n_packs() * (1 + history_rows * pack_width); }
     void initial_history(std::span<double> history) const override;
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,

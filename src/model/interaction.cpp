@@ -20,6 +20,10 @@ std::span<double> Interactions::part(const Interaction& interaction, State& stat
     return part(static_cast<std::size_t>(found - all_.begin()), std::span(state.history));
 }
 
+bool Interactions::irreversible() const {
+    return std::ranges::any_of(all_, [](const auto& one) { return one->irreversible(); });
+}
+
 bool Interactions::watch() const {
     return std::ranges::any_of(all_, [](const auto& one) { return one->watches(); });
 }

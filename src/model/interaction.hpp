@@ -64,6 +64,9 @@ public:
     virtual void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                         PathEnergies& energies) = 0;
 
+    /// Whether its history is, or may become, one that a step back in time would not undo.
+    virtual bool irreversible() const { return n_history() > 0; }
+
     /// Whether look() is to be called.
     virtual bool watches() const { return false; }
     /// Event::stirred() for look().
@@ -115,6 +118,7 @@ public:
     const Interaction& operator[](std::size_t i) const { return *all_[i]; }
     /// @param interaction  one of them
     std::span<double> part(const Interaction& interaction, State& state) const;
+    bool irreversible() const;
     bool watch() const;
     bool stirred(const State& state) const;
     /// Interaction::look() of all of them.

@@ -173,7 +173,12 @@ struct IntegratorOptions {
     bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
     double dt = 0;         ///< fixed step, s; 0: from the critical step, or from the error
 
-    // generalized_alpha, newmark, hht_alpha: GeneralizedAlpha::Options
+    // verlet, noh_bathe: Verlet::Options, NohBathe::Options
+    bool position_form = false;
+    std::string composition = "single";
+    double split = 0.54;
+
+    // generalized_alpha, newmark, hht_alpha: GeneralizedAlpha::Options; bathe, Bathe::Options, has rho_inf too
     double rho_inf = 0.8, beta = 0.25, gamma = 0.5, alpha = 0.1;
     bool adaptive = false;  ///< to rtol
 

@@ -35,6 +35,7 @@ public:
     std::span<const Constraint> constraints() const override { return constraints_.constraints(); }
     void constraint_values(double t, double last_event, std::span<double> values) const override;
     bool force_depends_on_velocity() const override { return elements_.viscous(); }
+    bool irreversible() const override { return interactions_.irreversible(); }
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override;
     void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                           std::span<double> history) const override;

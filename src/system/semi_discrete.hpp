@@ -89,6 +89,9 @@ public:
     /// True if f depends on v (viscous stress, damping in contact): C v does not count.
     virtual bool force_depends_on_velocity() const = 0;
 
+    /// True if history holds, or may come to hold, what a step back in time would not undo: damage, friction.
+    virtual bool irreversible() const { return false; }
+
     /// f(t, u, v, z), N. Pure: the accepted state is read only.
     /// @param[out] f  overwritten, shape (n_dof); external, material and contact forces, without C v
     /// @throws RecoverableError if an element is inverted in the trial state

@@ -55,7 +55,8 @@ struct OscillatorModel {
     std::vector<PrescribedMotion> prescribed;                      ///< by ascending degree of freedom
     Vector initial_u, initial_v;                                   ///< m, m/s; empty: zero
     bool has_tangent = true;
-    FrequencyBound bound;  ///< as reported; omega = 0: from K and D
+    bool irreversible = false;  ///< as declared
+    FrequencyBound bound;       ///< as reported; omega = 0: from K and D
 };
 
 class Oscillator final : public SemiDiscrete {
@@ -102,6 +103,7 @@ public:
                                                                                : model_.prescribed[k].v(t);
     }
     bool force_depends_on_velocity() const override { return model_.viscosity.size() > 0; }
+    bool irreversible() const override { return model_.irreversible; }
 
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override {
         if (until_failure_-- == 0 || broken_) throw RecoverableError("told to fail");
@@ -216,7 +218,7 @@ private:
     /// dz/d(B u) of a step of length dt along which B u grows linearly.
     double update_stiffness(double dt) const {
         const double x = dt / model_.relaxation_time;
-        return model_.maxwell_stiffness * (x > 0 ? -std::expm1(-x) / x : 1.0);  // the mean of exp(-s x) over the step
+        return model_.maxwell_stiffness * (x != 0 ? -std::expm1(-x) / x : 1.0);  // the mean of exp(-s x) over the step
     }
     /// z at the end of such a step.
     Vector updated(const State& accepted, const Trial& trial) const {

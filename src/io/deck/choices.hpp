@@ -97,11 +97,14 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
     {"expression", AmplitudeOptions::Kind::expression, "an expression of t, x and y"},
 }};
 
-inline const std::array<Choice<std::string>, 9> integrators{{
+inline const std::array<Choice<std::string>, 12> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
+    {"verlet", "verlet", "explicit compositions of Störmer-Verlet steps, symmetric in time, order 2 or 4"},
+    {"noh_bathe", "noh_bathe", "explicit, two sub-steps, order 2, damps frequencies near its limit (Noh and Bathe)"},
     {"generalized_alpha", "generalized_alpha", "implicit, order 2, damps high frequencies alone (Chung and Hulbert)"},
     {"newmark", "newmark", "implicit, order 2 where `gamma` is 1/2"},
     {"hht_alpha", "hht_alpha", "implicit, order 2 (Hilber, Hughes and Taylor)"},
+    {"bathe", "bathe", "implicit, two sub-steps, order 2, damps high frequencies (Bathe)"},
     {"cvode", "cvode", "multistep formulas of variable order and step, to a tolerance (SUNDIALS)"},
     {"arkode", "arkode", "Runge-Kutta: explicit, implicit or both, to a tolerance or with fixed steps (SUNDIALS)"},
     {"ida", "ida", "BDF of the system in residual form, to a tolerance (SUNDIALS)"},
@@ -154,6 +157,18 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark437l2sa_7_3_4", "ark437l2sa_7_3_4", "additive, order 4"},
     {"ark548l2sa_8_4_5", "ark548l2sa_8_4_5", "additive, order 5"},
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
+}};
+
+inline constexpr std::array<Choice<bool>, 2> verlet_forms{{
+    {"velocity", false, "kick, drift, kick: forces at the end of a sub-step"},
+    {"position", true, "drift, kick, drift: forces in the middle of a sub-step, the leapfrog of positions"},
+}};
+
+inline const std::array<Choice<std::string>, 4> verlet_compositions{{
+    {"single", "single", "one step, order 2"},
+    {"yoshida_3", "yoshida_3", "3 sub-steps, order 4 (Yoshida; Forest and Ruth)"},
+    {"suzuki_5", "suzuki_5", "5 sub-steps, order 4 (Suzuki)"},
+    {"mclachlan_5", "mclachlan_5", "5 sub-steps, order 4 (McLachlan)"},
 }};
 
 inline constexpr std::array<Choice<FractureOptions::Method>, 4> fracture_methods{{

@@ -9,33 +9,50 @@ namespace gneiss::deck {
 const Section<IntegratorOptions>& integrator_section() {
     using I = IntegratorOptions;
     using Types = std::vector<Condition>;
-    const Types leapfrog{{"type", {"central_difference"}}}, newmark{{"type", {"newmark"}}}, cvode{{"type", {"cvode"}}},
+    const Types explicit_ones{{"type", {"central_difference", "verlet", "noh_bathe"}}}, verlet{{"type", {"verlet"}}},
+        newmark{{"type", {"newmark"}}}, cvode{{"type", {"cvode"}}},
         statics{{"type", {"quasi_static", "dynamic_relaxation"}}},
         alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}}, multistep{{"type", {"cvode", "ida"}}},
-        stepped{{"type", {"central_difference", "generalized_alpha", "newmark", "hht_alpha", "arkode"}}},
+        stepped{{"type",
+                 {"central_difference", "verlet", "noh_bathe", "generalized_alpha", "newmark", "hht_alpha", "bathe",
+                  "arkode"}}},
         first_order{{"type", {"cvode", "arkode", "ida"}}},
         controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}},
-        balanced{{"type", {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha"}}},
+        balanced{
+            {"type", {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha", "bathe"}}},
         limited{{"type",
                  {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode",
                   "ida"}}},
         iterative{{"solver", {"pcg", "gmres"}}},
-        solved{{"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}};
+        solved{
+            {"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "bathe", "cvode", "arkode", "ida"}}};
     static const Section<I> section{
         {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
          number("safety", &I::safety,
-                {.range = half_open(0, 1), .only_for = leapfrog, .meaning = "part of the critical step that is taken"}),
-         choice("bound", &I::lanczos, step_bounds, {.only_for = leapfrog, .meaning = "how the critical step is found"}),
-         number("dt", &I::dt,
-                {.unit = "s",
-                 .range = at_least(0),
-                 .only_for = stepped,
-                 .meaning = "fixed step. 0: central_difference takes `safety` times the critical step, renewed as the "
-                            "mesh deforms; arkode takes steps from its error estimate; the others need `adaptive`, "
-                            "where this is the first step"}),
+                {.range = half_open(0, 1),
+                 .only_for = explicit_ones,
+                 .meaning = "part of the critical step that is taken"}),
+         choice("bound", &I::lanczos, step_bounds,
+                {.only_for = explicit_ones, .meaning = "how the critical step is found"}),
+         number(
+             "dt", &I::dt,
+             {.unit = "s",
+              .range = at_least(0),
+              .only_for = stepped,
+              .meaning = "fixed step. 0: explicit schemes take `safety` times the critical step, renewed as the mesh "
+                         "deforms; arkode takes steps from its error estimate; generalized_alpha, newmark and "
+                         "hht_alpha need `adaptive`, where this is the first step; bathe needs it"}),
+         choice("form", &I::position_form, verlet_forms,
+                {.only_for = verlet, .meaning = "where in a sub-step forces are taken"}),
+         choice("composition", &I::composition, verlet_compositions,
+                {.only_for = verlet, .meaning = "sub-steps that a step is made of; of order 4 some go back in time"}),
+         number("split", &I::split,
+                {.range = closed(0.5, 0.7),
+                 .only_for = {{"type", {"noh_bathe"}}},
+                 .meaning = "first sub-step over the step; 0.5: no damping"}),
          number("rho_inf", &I::rho_inf,
                 {.range = closed(0, 1),
-                 .only_for = {{"type", {"generalized_alpha"}}},
+                 .only_for = {{"type", {"generalized_alpha", "bathe"}}},
                  .meaning = "part of the highest frequencies' amplitude that a step leaves; 1: no damping"}),
          number("beta", &I::beta,
                 {.range = half_open(0, 2), .only_for = newmark, .meaning = "1/4: mean acceleration; 1/6: linear"}),

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "integrators/arkode.hpp"
+#include "integrators/verlet.hpp"
 #include "io/deck/choices.hpp"
 
 namespace gneiss {
@@ -20,6 +21,16 @@ TEST(MakeIntegrator, RungeKuttaTables_AreThoseOfTheDeckWithTheirOrders) {
         EXPECT_EQ(deck::runge_kutta_tables[k].meaning,
                   fmt::format("{}, order {}{}", kinds[static_cast<int>(tables[k].kind())], tables[k].order(),
                               tables[k].embedded() ? "" : ", fixed steps only"));
+    }
+}
+
+TEST(MakeIntegrator, VerletCompositions_AreThoseOfTheDeckWithTheirOrders) {
+    const auto compositions = verlet_compositions();
+    ASSERT_EQ(compositions.size(), deck::verlet_compositions.size());
+    for (std::size_t k = 0; k < compositions.size(); ++k) {
+        EXPECT_EQ(deck::verlet_compositions[k].name, compositions[k].name);
+        const std::string meaning(deck::verlet_compositions[k].meaning);
+        EXPECT_NE(meaning.find(fmt::format("order {}", compositions[k].order)), std::string::npos) << meaning;
     }
 }
 

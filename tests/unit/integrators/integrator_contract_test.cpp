@@ -9,10 +9,13 @@
 #include <tuple>
 
 #include "integrators/arkode.hpp"
+#include "integrators/bathe.hpp"
 #include "integrators/central_difference.hpp"
 #include "integrators/cvode.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/noh_bathe.hpp"
+#include "integrators/verlet.hpp"
 #include "support/one_thread.hpp"
 #include "support/oscillator_problems.hpp"
 
@@ -52,6 +55,26 @@ std::vector<FixedScheme> fixed_schemes() {
         {"NewmarkDamped", 1, 0.003125, [](double dt) { return alpha(Scheme::newmark(0.36, 0.7), dt); }},
         {"HilberHughesTaylor", 2, 0.0125, [](double dt) { return alpha(Scheme::hht(0.2), dt); }},
     };
+    for (const double rho_inf : {0.0, 0.6}) {
+        schemes.push_back({rho_inf == 0 ? "Bathe" : "BatheWithRhoInf", 2, 0.0125, [rho_inf](double dt) {
+                               return std::make_unique<Bathe>(Bathe::Options{rho_inf, dt, {.tolerance = 1e-12}});
+                           }});
+    }
+    for (const double split : {0.54, 0.6}) {
+        schemes.push_back({split == 0.54 ? "NohBathe" : "NohBatheDamped", 2, 0.0125, [split](double dt) {
+                               return std::make_unique<NohBathe>(NohBathe::Options{{.safety = 1, .dt = dt}, split});
+                           }});
+    }
+    for (const VerletComposition& composition : verlet_compositions()) {
+        for (const Verlet::Form form : {Verlet::Form::velocity, Verlet::Form::position}) {
+            const char* const name = form == Verlet::Form::velocity ? "VelocityVerlet_" : "PositionVerlet_";
+            schemes.push_back(
+                {std::string(name) + composition.name, composition.order, composition.order == 2 ? 0.0125 : 0.025,
+                 [&composition, form](double dt) {
+                     return std::make_unique<Verlet>(Verlet::Options{{.safety = 1, .dt = dt}, form, composition.name});
+                 }});
+        }
+    }
     for (const RungeKuttaTable& table : runge_kutta_tables()) {
         // from where the leading error rules to where round-off is still far
         const double longest[] = {0, 0, 0.0125, 0.0125, 0.025, 0.025, 0.025, 0, 0.1};
@@ -89,6 +112,34 @@ TEST_P(FixedStepOrder, ThreeHalvings_WholeState_IsTheSchemes) {
         EXPECT_NEAR(std::log2(before / now), scheme.order, tolerance) << "dt = " << dt << ", error " << now;
         before = now;
     }
+}
+
+/// The march of march_oscillator() with a checkpoint at 1.2 s, which is taken up by another integrator.
+State march_in_two(const Oscillator& system, const std::function<Made()>& make, bool resume) {
+    Made integrator = make();
+    State state = system.initial_state();
+    March march;
+    march.t_end = 1.2;
+    march.next_stop = [](double t) { return t < 0.4 ? 0.4 : t < 1.2 ? 1.2 : test::oscillator_end; };
+    march.run(system, *integrator, state, false);
+    const IntegratorMemory memory = integrator->save();
+    if (resume) {
+        integrator = make();
+        integrator->load(system, state, memory);
+    } else {
+        integrator->forget(system, state);
+    }
+    march.t_end = test::oscillator_end;
+    march.run(system, *integrator, state, true);
+    EXPECT_EQ(integrator->reactions().size(), system.constraints().size());
+    return state;
+}
+
+TEST_P(FixedStepOrder, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
+    const auto& [scheme, problem] = GetParam();
+    const Oscillator system(problem.model());
+    const auto make = [&, &scheme = scheme] { return scheme.make(scheme.longest); };
+    EXPECT_EQ(march_in_two(system, make, true), march_in_two(system, make, false));
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, FixedStepOrder,
@@ -180,27 +231,6 @@ TEST_P(AdaptiveSteps, Error_FollowsTheTolerance) {
     EXPECT_GT(errors.front() / errors.back(), 200);
 }
 
-/// The march of march_oscillator() with a checkpoint at 1.2 s, which is taken up by another integrator.
-State march_in_two(const Oscillator& system, const std::function<Made()>& make, bool resume) {
-    Made integrator = make();
-    State state = system.initial_state();
-    March march;
-    march.t_end = 1.2;
-    march.next_stop = [](double t) { return t < 0.4 ? 0.4 : t < 1.2 ? 1.2 : test::oscillator_end; };
-    march.run(system, *integrator, state, false);
-    const IntegratorMemory memory = integrator->save();
-    if (resume) {
-        integrator = make();
-        integrator->load(system, state, memory);
-    } else {
-        integrator->forget(system, state);
-    }
-    march.t_end = test::oscillator_end;
-    march.run(system, *integrator, state, true);
-    EXPECT_EQ(integrator->reactions().size(), system.constraints().size());
-    return state;
-}
-
 TEST_P(AdaptiveSteps, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
     const auto& [scheme, problem] = GetParam();
     const Oscillator system(problem.model());
@@ -214,6 +244,14 @@ INSTANTIATE_TEST_SUITE_P(Schemes, AdaptiveSteps,
                          [](const auto& instance) {
                              return std::get<0>(instance.param).name + "_" + std::get<1>(instance.param).name;
                          });
+
+/// Fixed steps so short that even those of order 2 are as accurate as the others at their tolerance.
+std::vector<AdaptiveScheme> fine_fixed_schemes() {
+    std::vector<AdaptiveScheme> schemes;
+    for (const FixedScheme& scheme : fixed_schemes())
+        if (scheme.order > 1) schemes.push_back({scheme.name, [make = scheme.make](double) { return make(2.5e-4); }});
+    return schemes;
+}
 
 class AnyIntegrator : public testing::TestWithParam<AdaptiveScheme> {};
 
@@ -270,6 +308,8 @@ TEST_P(AnyIntegrator, StartedAfresh_TakesTheSameSteps) {
     EXPECT_EQ(once, again);
 }
 
+INSTANTIATE_TEST_SUITE_P(FixedSteps, AnyIntegrator, testing::ValuesIn(fine_fixed_schemes()),
+                         [](const auto& instance) { return instance.param.name; });
 INSTANTIATE_TEST_SUITE_P(Schemes, AnyIntegrator, testing::ValuesIn(adaptive_schemes),
                          [](const auto& instance) { return instance.param.name; });
 

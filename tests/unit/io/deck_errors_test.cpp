@@ -107,14 +107,16 @@ TEST(DeckErrors, UnknownKeysAndWords) {
         {{"solid.element=CTS"},
          {"key `solid.element`: given \"CTS\", must be one of \"compt\", \"cst\", did you mean `cst`?"}},
         {{"integrator.type=rk4"},
-         {"key `integrator.type`: given \"rk4\", must be one of \"central_difference\", \"generalized_alpha\", "
-          "\"newmark\", \"hht_alpha\", \"cvode\", \"arkode\", \"ida\", \"quasi_static\", \"dynamic_relaxation\""}},
+         {"key `integrator.type`: given \"rk4\", must be one of \"central_difference\", \"verlet\", \"noh_bathe\", "
+          "\"generalized_alpha\", \"newmark\", \"hht_alpha\", \"bathe\", \"cvode\", \"arkode\", \"ida\", "
+          "\"quasi_static\", \"dynamic_relaxation\""}},
         {{"integrator.type=quasi_static", "integrator.safety=0.5"},
-         {"key `integrator.safety`: only for `type` = \"central_difference\", here `type` is \"quasi_static\""}},
+         {"key `integrator.safety`: only for `type` = \"central_difference\", \"verlet\", \"noh_bathe\", here `type` "
+          "is \"quasi_static\""}},
         {{"integrator.tolerance=1e-6"},
          {"key `integrator.tolerance`: only for `type` = \"quasi_static\", \"dynamic_relaxation\", "
           "\"generalized_alpha\", \"newmark\", "
-          "\"hht_alpha\", "
+          "\"hht_alpha\", \"bathe\", "
           "here `type` is \"central_difference\""}},
         {{"integrator.type=dynamic_relaxation", "integrator.tolerance=0"},
          {"key `integrator.tolerance`: given 0, must be in (0, 0.01]"}},

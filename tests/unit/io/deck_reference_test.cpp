@@ -250,6 +250,51 @@ t_end = 1
 )toml",
     R"toml(
 [mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "verlet"
+form = "position"
+composition = "suzuki_5"
+safety = 0.9
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "noh_bathe"
+split = 0.6
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "bathe"
+rho_inf = 0
+dt = 1e-3
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
 file = "rock.geo"
 parameters = { lc = 0.1, n = 3 }
 [solid]

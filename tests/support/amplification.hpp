@@ -1,0 +1,55 @@
+#pragma once
+// The amplification matrix of an integrator on one undamped mass and spring, measured by its own steps.
+
+#include <Eigen/Eigenvalues>
+#include <functional>
+#include <memory>
+
+#include "support/oscillator.hpp"
+#include "system/integrator.hpp"
+
+namespace gneiss::test {
+
+using MakeIntegrator = std::function<std::unique_ptr<Integrator>(double dt)>;
+
+/// Of (u, v/omega) over a step of x'' = -omega^2 x, with dt = 1.
+inline Eigen::Matrix2d amplification(const MakeIntegrator& make, double omega) {
+    Eigen::Matrix2d matrix;
+    for (int column = 0; column < 2; ++column) {
+        OscillatorModel model;
+        model.mass = Vector{{1, 1}};
+        model.stiffness = omega * omega * Matrix::Identity(2, 2);
+        model.initial_u = Vector{{column == 0 ? 1.0 : 0.0, 0}};
+        model.initial_v = Vector{{column == 1 ? omega : 0.0, 0}};
+        model.bound = {1e-3 * omega, 0};  // a bound that lies, so that no step is refused
+        const Oscillator system(model);
+        State state = system.initial_state();
+        const auto integrator = make(1.0);
+        integrator->start(system, state, StartReason::fresh);
+        integrator->advance(system, state, 1.0);
+        matrix.col(column) << state.u[0], state.v[0] / omega;
+    }
+    return matrix;
+}
+
+inline double spectral_radius(const Eigen::Matrix2d& matrix) { return matrix.eigenvalues().cwiseAbs().maxCoeff(); }
+
+/// omega dt from which on steps grow: by bisection after a scan upwards, so that it is the first such one.
+/// @param least  growth of a step that counts: a double eigenvalue of the unit circle is known to sqrt(eps)
+inline double stability_limit(const MakeIntegrator& make, double largest, double least = 1e-6) {
+    const auto grows = [&](double omega) { return spectral_radius(amplification(make, omega)) > 1 + least; };
+    constexpr int n = 500;
+    double stable = 0, unstable = largest;
+    for (int i = 1; i <= n && stable < unstable; ++i) {
+        const double omega = largest * i / n;
+        if (grows(omega)) {
+            unstable = omega;
+            break;
+        }
+        stable = omega;
+    }
+    for (int i = 0; i < 40; ++i) (grows(0.5 * (stable + unstable)) ? unstable : stable) = 0.5 * (stable + unstable);
+    return stable;
+}
+
+}  // namespace gneiss::test

@@ -1,0 +1,173 @@
+// What is the compositions' own: stability, reversibility, energy, what they refuse.
+
+#include "integrators/verlet.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "support/amplification.hpp"
+#include "support/one_thread.hpp"
+#include "support/oscillator_problems.hpp"
+
+namespace gneiss {
+namespace {
+
+using testing::HasSubstr;
+using Form = Verlet::Form;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+struct Kind {
+    const VerletComposition& composition;
+    Form form;
+
+    std::unique_ptr<Verlet> make(const StableStep::Options& step) const {
+        return std::make_unique<Verlet>(Verlet::Options{step, form, composition.name});
+    }
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.composition.name; }
+
+std::vector<Kind> kinds() {
+    std::vector<Kind> all;
+    for (const VerletComposition& composition : verlet_compositions())
+        for (const Form form : {Form::velocity, Form::position}) all.push_back({composition, form});
+    return all;
+}
+
+class EveryVerlet : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryVerlet, testing::ValuesIn(kinds()), [](const auto& instance) {
+    return std::string(instance.param.form == Form::velocity ? "Velocity_" : "Position_") +
+           instance.param.composition.name;
+});
+
+TEST_P(EveryVerlet, StabilityLimit_IsWhereStepsBeginToGrow) {
+    const double limit = test::stability_limit([&](double dt) { return GetParam().make({.safety = 1, .dt = dt}); }, 4);
+    // the table rounds down in its fifth digit; growth of 1e-6 a step begins that much later
+    EXPECT_NEAR(limit, GetParam().composition.limit.omega_dt, 2e-4);
+}
+
+TEST_P(EveryVerlet, DampedInAnyWay_AtTheCriticalStep_StaysBounded) {
+    // a mass on a spring, viscous, damped, absorbing: whatever rules the step
+    for (const double rate : {0.0, 0.2, 1.0, 4.0, 20.0}) {
+        for (int kind = 0; kind < 3; ++kind) {
+            test::OscillatorModel model;
+            model.mass = test::Vector{{2, 2}};
+            model.stiffness = 2 * test::Matrix{{9, 0}, {0, 1}};
+            model.initial_u = test::Vector{{1, 0.3}};
+            if (kind == 0) model.viscosity = 2 * rate * test::Matrix::Identity(2, 2);
+            if (kind == 1) model.damping.mass_proportional = rate;
+            if (kind == 2) model.damping.blocks = {{0, 2 * rate, 0.5 * rate, rate}};
+            const test::Oscillator system(model);
+            const auto integrator = GetParam().make({.safety = 0.999});
+            State state = system.initial_state();
+            integrator->start(system, state, StartReason::fresh);
+            for (int step = 0; step < 4000; ++step) integrator->advance(system, state, state.t + 100);
+            // just below the limit the amplitude may be larger than at the start, by about (1 - 0.999^2)^-1/2
+            EXPECT_LT(std::abs(state.u[0]) + std::abs(state.u[1]), 30) << rate << " " << kind;
+        }
+    }
+}
+
+TEST_P(EveryVerlet, SubSteps_FulfilTheConditionsOfTheirOrder) {
+    double sum = 0, cubes = 0;
+    for (const double part : GetParam().composition.sub_steps) {
+        sum += part;
+        cubes += part * part * part;
+    }
+    EXPECT_NEAR(sum, 1, 8 * eps);
+    if (GetParam().composition.order == 4) {
+        EXPECT_NEAR(cubes, 0, 32 * eps);
+    }
+}
+
+TEST_P(EveryVerlet, MotionReversed_ComesBack) {
+    test::OscillatorModel model = test::two_nodes();
+    const test::Oscillator system(model);
+    const auto integrator = GetParam().make({.dt = 0.05});
+    State state = system.initial_state();
+    const State before = state;
+    integrator->start(system, state, StartReason::fresh);
+    for (int step = 0; step < 200; ++step) integrator->advance(system, state, state.t + 0.05);
+    for (double& v : state.v) v = -v;
+    for (int step = 0; step < 200; ++step) integrator->advance(system, state, state.t + 0.05);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(state.u[i], before.u[i], 1e4 * eps);  // thousands of operations
+        EXPECT_NEAR(state.v[i], -before.v[i], 1e5 * eps);
+    }
+}
+
+TEST_P(EveryVerlet, ManyPeriodsUndamped_EnergyErrorDoesNotGrow) {
+    const test::Oscillator system(test::two_nodes());
+    const auto integrator = GetParam().make({.dt = 0.05});
+    State state = system.initial_state();
+    integrator->start(system, state, StartReason::fresh);
+    const auto energy = [&] { return integrator->kinetic_energy(system, state) + system.stored_energies(state).sum(); };
+    const double before = energy();
+    double early = 0, late = 0;
+    for (int step = 0; step < 40000; ++step) {
+        integrator->advance(system, state, state.t + 0.05);
+        double& largest = step < 20000 ? early : late;
+        largest = std::max(largest, std::abs(energy() - before));
+    }
+    EXPECT_LT(early, 0.05 * before);
+    EXPECT_LT(late, 1.1 * early + 1e4 * eps * before);
+}
+
+TEST(Verlet, SingleInVelocityForm_LinearUndamped_KeepsItsEnergyToRoundOff) {
+    const test::Oscillator system(test::two_nodes());
+    Verlet integrator({{.dt = 0.2}, Form::velocity, "single"});
+    State state = system.initial_state();
+    integrator.start(system, state, StartReason::fresh);
+    const auto energy = [&] { return integrator.kinetic_energy(system, state) + system.stored_energies(state).sum(); };
+    const double before = energy();
+    for (int step = 0; step < 10000; ++step) integrator.advance(system, state, state.t + 0.2);
+    EXPECT_NEAR(energy(), before, 1e4 * eps * before);  // 1e4 steps
+}
+
+TEST(Verlet, FiveSubSteps_WithAsManyForces_AreMoreAccurateThanThree) {
+    const test::Oscillator system(test::two_nodes());
+    const State exact = runge_kutta(system, test::oscillator_end, test::oscillator_reference_step);
+    const auto error = [&](const char* composition, double sub_steps) {
+        Verlet integrator({{.safety = 1, .dt = 0.01 * sub_steps}, Form::velocity, composition});
+        return test::distance(test::march_oscillator(system, integrator), exact);
+    };
+    const double three = error("yoshida_3", 3);
+    EXPECT_LT(error("suzuki_5", 5), 0.5 * three);
+    EXPECT_LT(error("mclachlan_5", 5), 0.5 * three);
+}
+
+TEST(Verlet, StepsBack_WithWhatCannotBeUndone_AreRefused) {
+    test::OscillatorModel model = test::two_nodes();
+    model.irreversible = true;
+    const test::Oscillator system(model);
+    State state = system.initial_state();
+    for (const VerletComposition& composition : verlet_compositions()) {
+        Verlet integrator({{}, Form::velocity, composition.name});
+        if (!composition.goes_back()) {
+            EXPECT_NO_THROW(integrator.start(system, state, StartReason::fresh));
+            continue;
+        }
+        try {
+            integrator.start(system, state, StartReason::fresh);
+            FAIL() << composition.name;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("friction and restitution cannot be undone: take `single`"));
+        }
+    }
+}
+
+TEST(Verlet, Options_OutOfRange_AreReported) {
+    EXPECT_THROW(Verlet({{.safety = 0}, Form::velocity, "single"}), InputError);
+    try {
+        Verlet integrator({{}, Form::velocity, "suzuki"});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("given `suzuki`, must be one of single, yoshida_3, suzuki_5, mclachlan_5"));
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
