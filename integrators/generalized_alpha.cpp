@@ -85,7 +85,7 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     full_values_.assign(tangent.n_nonzero(), 0.0);
     values_.assign(free_->pattern().n_nonzero(), 0.0);
     change_.assign(free_->n(), 0.0);
-    solver_ = make_linear_solver(options_.solver, tangent.symmetric());
+    solver_ = std::make_unique<BorderedSolver>(make_linear_solver(options_.solver, tangent.symmetric()));
     if (free_->n() > 0) solver_->analyse(free_->pattern());
     motion_.bind(system, omega_);
 }
@@ -226,12 +226,12 @@ double GeneralizedAlpha::evaluate_stage(const SemiDiscrete& system, const State&
 void GeneralizedAlpha::factorise(const SemiDiscrete& system, const State& state, double dt) {
     const auto [alpha_m, alpha_f, beta, gamma] = options_.scheme;
     const double velocity = (1 - alpha_f) * gamma * dt;
-    system.tangent()->assemble(
-        state, {stage_.t, stage_.last_event, stage_.u, stage_.v, {}},
-        {.mass = 1 - alpha_m, .damping = velocity, .stiffness = (1 - alpha_f) * beta * dt * dt, .velocity = velocity},
-        full_values_);
+    const Trial stage{stage_.t, stage_.last_event, stage_.u, stage_.v, {}};
+    const Tangent::Factors factors{
+        .mass = 1 - alpha_m, .damping = velocity, .stiffness = (1 - alpha_f) * beta * dt * dt, .velocity = velocity};
+    system.tangent()->assemble(state, stage, factors, full_values_);
     free_->take_values(full_values_, values_);
-    solver_->factorise(values_);
+    solver_->factorise(values_, free_->take(system.tangent()->beside(state, stage, factors)));
     factorised_dt_ = dt;
     ++counts_.factorisations;
 }

@@ -15,6 +15,7 @@
 
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/problem_scales.hpp"
+#include "linear/bordered_solver.hpp"
 #include "linear/free_matrix.hpp"
 #include "system/integrator.hpp"
 
@@ -94,7 +95,7 @@ private:
     PrescribedMotion motion_;
     ProblemScales scales_;
     std::unique_ptr<FreeMatrix> free_;
-    std::unique_ptr<LinearSolver> solver_;
+    std::unique_ptr<BorderedSolver> solver_;
     double factorised_dt_ = 0;  ///< step of the matrix at hand, s; 0: none
     double dt_ = 0;             ///< next step, s
     double omega_ = 0;          ///< upper bound of the natural frequencies at the start of the run, rad/s
