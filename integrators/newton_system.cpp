@@ -21,7 +21,7 @@ NewtonSystem::NewtonSystem(const SemiDiscrete& system, FirstOrderForm& form, con
       damped_(system.force_depends_on_velocity() || system.damping().mass_proportional > 0 ||
               !system.damping().blocks.empty()) {
     const SparsePattern pattern = free_.pattern();
-    if (free_.n() > 0) solver_->analyse(pattern);
+    if (free_.n() > 0) solver_.analyse(pattern);
     const auto mass = system.lumped_mass();
     for (std::size_t row = 0; row < free_.n(); ++row) {
         mass_.push_back(mass[form.free()[row]]);
@@ -66,6 +66,7 @@ void NewtonSystem::linearise(const State& accepted, double t, std::span<const do
     }
     const Trial folded{t, at_.last_event, at_.u, at_.v, {}};
     take_tangent(folded, {.stiffness = 1}, folded_);
+    beside_ = free_.take(system_.tangent()->beside(at_, folded, {.stiffness = 1}));
     if (damped_) take_tangent(folded, {.damping = 1, .velocity = 1}, damping_);
     ++counts_.linearisations;
 }
@@ -73,7 +74,7 @@ void NewtonSystem::linearise(const State& accepted, double t, std::span<const do
 double NewtonSystem::bytes() const {
     const std::size_t n_matrices = 2 + (damped_ ? 1 : 0) + (form_.n_internal() > 0 ? 1 : 0);  // folded_, values_, ...
     return static_cast<double>((n_matrices * values_.size() + full_.size()) * sizeof(double) + free_.bytes()) +
-           (free_.n() > 0 ? solver_->expected_factor_bytes() : 0.0);
+           (free_.n() > 0 ? solver_.expected_factor_bytes() : 0.0);
 }
 
 void NewtonSystem::set_up() {
@@ -85,7 +86,9 @@ void NewtonSystem::set_up() {
             for (std::size_t k = first; k < last; ++k) values_[k] += gamma * damping_[k];
     });
     for (std::size_t row = 0; row < diagonal_.size(); ++row) values_[diagonal_[row]] += mass_[row];
-    solver_->factorise(values_);
+    LowRank beside = beside_;
+    for (LowRank::Dyad& dyad : beside.dyads) dyad.factor *= square;
+    solver_.factorise(values_, beside);
     ++counts_.factorisations;
 }
 
@@ -97,9 +100,10 @@ void NewtonSystem::solve(std::span<const double> b, std::span<double> x) {
     const auto x_u = x.first(n), x_v = x.subspan(n, n), x_z = x.subspan(2 * n);
     if (n > 0) {
         multiply(free_.pattern(), form_.n_internal() > 0 ? given_ : folded_, x_u, right_);
+        beside_.add_product(1, x_u, right_);
         for (std::size_t i = 0; i < n; ++i) right_[i] = mass_[i] * x_v[i] - gamma_ * right_[i];
         if (form_.n_internal() > 0) add_internal_forces(x_z);
-        solver_->solve(right_, x_v);
+        solver_.solve(right_, x_v);
         for (std::size_t i = 0; i < n; ++i) x_u[i] += gamma_ * x_v[i];
     }
     if (form_.n_internal() > 0) internal_changes(x_z, x_v, x_z);

@@ -9,8 +9,8 @@
 // K - df/dz G is the tangent with dz/du folded in, assembled element by element. dg/du and dg/dz are left out: of a
 // rate equation z' = M(z) e' they are a strain increment's part of what is kept, which costs Newton's method no
 // iteration; where z decays by itself it converges by gamma dg/dz an iteration. What it converges to is the same. (A
-// law whose z decays faster than the steps would need dg/dz here.) df/dz and G act by differences of forces and rates,
-// exact because f is affine in z and g in v.
+// law whose z decays faster than the steps would need dg/dz here.) What would fill the matrix stands beside it, as
+// dyads of K. df/dz and G act by differences of forces and rates, exact because f is affine in z and g in v.
 
 #include <memory>
 #include <string>
@@ -18,6 +18,7 @@
 
 #include "integrators/first_order_form.hpp"
 #include "integrators/sundials_objects.hpp"
+#include "linear/bordered_solver.hpp"
 #include "linear/free_matrix.hpp"
 
 namespace gneiss {
@@ -50,7 +51,7 @@ public:
     void solve(std::span<const double> b, std::span<double> x);
 
     /// A solver that starts anew must not depend on earlier matrices.
-    void forget() { solver_->forget(); }
+    void forget() { solver_.forget(); }
 
     const Counts& counts() const { return counts_; }
     CallbackGuard& guard() { return guard_; }
@@ -67,13 +68,14 @@ private:
     const SemiDiscrete& system_;
     FirstOrderForm& form_;
     FreeMatrix free_;
-    std::unique_ptr<LinearSolver> solver_;
+    BorderedSolver solver_;
     std::vector<double> mass_;                               ///< of the free degrees of freedom, kg
     std::vector<std::size_t> diagonal_;                      ///< place of each free diagonal entry
     bool damped_;                                            ///< D is not zero
     State at_;                                               ///< where the system is linearised
     std::vector<double> full_;                               ///< values over all degrees of freedom
     std::vector<double> folded_, given_, damping_, values_;  ///< K - df/dz G, K, D, and what is factorised
+    LowRank beside_;                                         ///< beside the first two
     std::vector<double> right_, f_, f_zero_, v_, z_, rate_, rate_zero_;
     double gamma_ = 0, right_scale_ = 1;
     Counts counts_;

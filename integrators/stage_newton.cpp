@@ -33,7 +33,7 @@ void StageNewton::bind(const SemiDiscrete& system) {
     full_values_.assign(tangent.n_nonzero(), 0.0);
     values_.assign(free_->pattern().n_nonzero(), 0.0);
     change_.assign(free_->n(), 0.0);
-    solver_ = make_linear_solver(options_.solver, tangent.symmetric());
+    solver_ = std::make_unique<BorderedSolver>(make_linear_solver(options_.solver, tangent.symmetric()));
     if (free_->n() > 0) solver_->analyse(free_->pattern());
     drop_matrix();
 }
@@ -63,9 +63,10 @@ double StageNewton::evaluate(const SemiDiscrete& system, const State& accepted, 
 }
 
 void StageNewton::factorise(const SemiDiscrete& system, const State& accepted, const Stage& stage) {
-    system.tangent()->assemble(accepted, Trial::of(stage.at), stage.factors, full_values_);
+    const Trial at = Trial::of(stage.at);
+    system.tangent()->assemble(accepted, at, stage.factors, full_values_);
     free_->take_values(full_values_, values_);
-    solver_->factorise(values_);
+    solver_->factorise(values_, free_->take(system.tangent()->beside(accepted, at, stage.factors)));
     factorised_dt_ = stage.matrix_dt;
     ++counts_.factorisations;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "linear/bordered_solver.hpp"
 #include "linear/free_matrix.hpp"
-#include "linear/linear_solver.hpp"
 #include "system/integrator.hpp"
 
 namespace gneiss {
@@ -70,7 +70,7 @@ private:
     std::string name_;
     Counts counts_;
     std::unique_ptr<FreeMatrix> free_;
-    std::unique_ptr<LinearSolver> solver_;
+    std::unique_ptr<BorderedSolver> solver_;
     double factorised_dt_ = 0;  ///< Stage::matrix_dt of the matrix at hand; 0: none
     std::vector<double> f_, residual_, change_, full_values_, values_;
 };

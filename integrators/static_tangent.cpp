@@ -8,6 +8,7 @@
 
 #include "base/largest.hpp"
 #include "integrators/free_part.hpp"
+#include "linear/bordered_solver.hpp"
 #include "linear/krylov.hpp"
 
 namespace gneiss {
@@ -28,29 +29,32 @@ public:
           tangent_(tangent_of(system)),
           values_(tangent_.n_nonzero()),
           solver_(make_linear_solver(options, tangent_.symmetric())) {
-        if (n() > 0) solver_->analyse(free_.pattern());
+        if (n() > 0) solver_.analyse(free_.pattern());
     }
 
     void linearise(const State& accepted, const Trial& trial) override {
         tangent_.assemble(accepted, trial, {.stiffness = 1}, values_);
+        beside_ = tangent_.beside(accepted, trial, {.stiffness = 1});
     }
     void subtract_fixed(std::span<const double> x_fixed, std::span<double> right) override {
         free_.subtract_fixed(values_, x_fixed, right);
+        free_.subtract_fixed(beside_, x_fixed, right);
     }
     void factorise() override {
         free_.take_values(values_, free_values());
-        solver_->factorise(free_values());
+        solver_.factorise(free_values(), free_.take(beside_));
     }
-    void forget() override { solver_->forget(); }
-    void solve(std::span<const double> b, std::span<double> x) override { solver_->solve(b, x); }
+    void forget() override { solver_.forget(); }
+    void solve(std::span<const double> b, std::span<double> x) override { solver_.solve(b, x); }
     void multiply(std::span<const double> x, std::span<double> y) override {
         gneiss::multiply(free_.pattern(), free_values(), x, y);
+        free_.take(beside_).add_product(1, x, y);
     }
-    bool indefinite() const override { return solver_->indefinite(); }
-    std::size_t iterations() const override { return solver_->iterations(); }
+    bool indefinite() const override { return solver_.indefinite(); }
+    std::size_t iterations() const override { return solver_.iterations(); }
     double bytes() const override {
         return static_cast<double>(values_.size() * sizeof(double) + free_.bytes()) +
-               (n() > 0 ? solver_->expected_factor_bytes() : 0.0);
+               (n() > 0 ? solver_.expected_factor_bytes() : 0.0);
     }
 
 private:
@@ -58,7 +62,8 @@ private:
 
     const Tangent& tangent_;
     std::vector<double> values_;  ///< of all degrees of freedom, or, once factorised, of the free ones in front
-    std::unique_ptr<LinearSolver> solver_;
+    LowRank beside_;              ///< of all degrees of freedom
+    BorderedSolver solver_;
 };
 
 class MatrixFree final : public StaticTangent {

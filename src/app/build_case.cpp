@@ -15,6 +15,7 @@
 #include "model/initial_conditions.hpp"
 #include "model/loads.hpp"
 #include "model/make_blocks.hpp"
+#include "model/make_lumped.hpp"
 #include "model/rigid_motions.hpp"
 
 namespace gneiss {
@@ -52,10 +53,12 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const std::vecto
 std::function<SolidSystem::Surroundings(const Mesh&)> surroundings_of(const SolidSystem& system, const Mesh& mesh,
                                                                       const CaseOptions& options) {
     return
-        [loads = options.loads, boundaries = options.boundaries, thickness = options.solid.thickness,
+        [loads = options.loads, lumped = options.lumped, boundaries = options.boundaries,
+         thickness = options.solid.thickness,
          stiffness = stiffness_for_absorbing(mesh, options.boundaries, system.elements().blocks())](const Mesh& now) {
             SolidSystem::Surroundings around;
             around.terms = make_loads(now, loads, thickness);
+            around.models = make_lumped(now, lumped, thickness);
             around.constraints = make_constraints(now, boundaries);
             around.damping = absorbing_damping(now, boundaries, stiffness, thickness);
             return around;
@@ -75,6 +78,20 @@ void need_supports(const Mesh& mesh, const SolidSystem::Parts& parts) {
                          "too few supports for a static solution, which leaves free " + describe(free, mesh));
 }
 
+/// @throws InputError for gas that would change with time where there is none
+void need_lasting_gas(const CaseOptions& options) {
+    std::vector<Problem> problems;
+    for (std::size_t i = 0; i < options.lumped.size(); ++i)
+        for (const auto& [given, key] :
+             {std::pair(options.lumped[i].leak > 0, "leak"), {options.lumped[i].burn.has_value(), "burn"}})
+            if (given)
+                problems.push_back({fmt::format("[[lumped]] {}", i + 1),
+                                    fmt::format("{}: has no meaning under integrator.type = \"{}\", whose time is that "
+                                                "of the loads",
+                                                key, options.integrator.type)});
+    if (!problems.empty()) throw InputError(problems);
+}
+
 /// What is given and has no effect where nothing moves.
 std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     std::vector<std::string> warnings;
@@ -91,6 +108,8 @@ std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     idle(std::ranges::any_of(options.materials,
                              [](const auto& m) { return m.shear_viscosity > 0 || m.bulk_viscosity > 0; }),
          "viscosity of a material");
+    idle(std::ranges::any_of(options.lumped, [](const auto& l) { return l.velocity != 0 || l.damping > 0; }),
+         "velocity or damping of a [[lumped]] mass");
     if (std::ranges::any_of(options.loads,
                             [](const auto& load) { return load.amplitude.kind == AmplitudeOptions::Kind::constant; }))
         warnings.push_back(
@@ -125,6 +144,7 @@ Case build_case(CaseOptions options) {
     SolidSystem::Parts parts;
     collect(problems, [&] { parts.blocks = make_blocks(*built.mesh, options.solid, options.materials); });
     collect(problems, [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness); });
+    collect(problems, [&] { parts.models = make_lumped(*built.mesh, options.lumped, options.solid.thickness); });
     collect(problems, [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(*built.mesh, options.initial); });
     collect(problems, [&] {
@@ -165,7 +185,10 @@ Case build_case(CaseOptions options) {
     if (!problems.empty()) throw InputError(problems);
     if (joints) parts.interactions.push_back(std::move(joints));
     for (auto& one : contacts) parts.interactions.push_back(std::move(one));
-    if (built.integrator->is_static()) need_supports(*built.mesh, parts);
+    if (built.integrator->is_static()) {
+        need_lasting_gas(options);
+        need_supports(*built.mesh, parts);
+    }
 
     for (const double time : options.output.field_times)
         if (time > options.run.t_end)

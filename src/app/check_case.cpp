@@ -137,6 +137,8 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     for (const auto& [name, unused] : mesh.boundaries) lines.insert(name);
     for (const auto& [name, unused] : mesh.inner_lines) lines.insert(name);
     line("points", names_of(mesh.node_sets, lines));
+    for (const auto& quantity : built.system->models().quantities(built.system->initial_state()))
+        line("at the start", fmt::format("{} {:.6g} {}", quantity.name, quantity.value, quantity.unit));
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
     if (built.integrator->is_static())

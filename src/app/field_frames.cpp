@@ -42,8 +42,11 @@ void FieldFrames::write(const SolidSystem& system, const State& state, std::size
     if (mesh_.n_nodes() != n_nodes_) series_.set_mesh(FieldTriangles(mesh_).on(mesh_));
     n_nodes_ = mesh_.n_nodes();
     const std::vector<PointFields> points = system.point_fields(state);
-    std::vector<double> speed(state.v.size() / 2), cauchy, munjiza, stretch, alpha, beta;
-    for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::hypot(state.v[2 * i], state.v[2 * i + 1]);
+    // of the mesh: points of lumped models stand behind
+    const std::vector<double> u(state.u.begin(), state.u.begin() + static_cast<std::ptrdiff_t>(2 * n_nodes_));
+    const std::vector<double> v(state.v.begin(), state.v.begin() + static_cast<std::ptrdiff_t>(2 * n_nodes_));
+    std::vector<double> speed(n_nodes_), cauchy, munjiza, stretch, alpha, beta;
+    for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::hypot(v[2 * i], v[2 * i + 1]);
     for (const PointFields& point : points) {
         cauchy.insert(cauchy.end(), point.cauchy.begin(), point.cauchy.end());
         munjiza.insert(munjiza.end(), point.munjiza.begin(), point.munjiza.end());
@@ -53,7 +56,7 @@ void FieldFrames::write(const SolidSystem& system, const State& state, std::size
     }
     const std::vector<std::string> components{"v", "alpha", "beta", "psi"};
     series_.write(state.t, static_cast<std::int64_t>(step),
-                  {{{"displacement", state.u, 2}, {"velocity", state.v, 2}, {"speed", speed}},
+                  {{{"displacement", u, 2}, {"velocity", v, 2}, {"speed", speed}},
                    {{"cauchy_stress", cauchy, 3, {"xx", "yy", "xy"}},
                     {"munjiza_stress", munjiza, 4, components},
                     {"stretch", stretch, 4, components},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/build_case.hpp"
@@ -38,6 +39,32 @@ State state_of(const RunArguments& arguments, const Case& built) {
     return state;
 }
 
+/// Rows of a matrix, and what stands beside it filled in.
+struct Filled {
+    MatrixPattern pattern;
+    std::vector<double> values;
+};
+Filled filled(const MatrixPattern& pattern, const std::vector<double>& values, const LowRank& beside) {
+    Filled all;
+    all.pattern.row_starts.push_back(0);
+    for (std::size_t row = 0; row + 1 < pattern.row_starts.size(); ++row) {
+        std::map<std::int64_t, double> entries;
+        for (auto k = static_cast<std::size_t>(pattern.row_starts[row]);
+             k < static_cast<std::size_t>(pattern.row_starts[row + 1]); ++k)
+            entries[pattern.columns[k]] = values[k];
+        for (const auto& [factor, column] : beside.dyads)
+            for (const auto& [at, value] : column)
+                if (at == static_cast<std::int64_t>(row))
+                    for (const auto& [other, more] : column) entries[other] += factor * value * more;
+        for (const auto& [column, value] : entries) {
+            all.pattern.columns.push_back(column);
+            all.values.push_back(value);
+        }
+        all.pattern.row_starts.push_back(static_cast<std::int64_t>(all.values.size()));
+    }
+    return all;
+}
+
 nlohmann::ordered_json description(const RunArguments& arguments, const Case& built, const State& state) {
     nlohmann::ordered_json json;
     json["title"] = built.options.title;
@@ -46,7 +73,9 @@ nlohmann::ordered_json description(const RunArguments& arguments, const Case& bu
     if (!arguments.set.empty()) json["overrides"] = arguments.set;
     json["t_s"] = state.t;
     json["n_dof"] = state.u.size();
-    json["dof_of_node"] = "2 node + component, nodes from 0; the matrices count rows and columns from 1";
+    json["dof_of_node"] =
+        "2 node + component, nodes from 0, points of lumped masses behind them; the matrices count rows and columns "
+        "from 1";
     json["symmetric"] = built.system->tangent()->symmetric();
     std::vector<std::size_t> constrained;
     for (const Constraint& constraint : built.system->constraints()) constrained.push_back(constraint.dof);
@@ -77,7 +106,13 @@ void write_matrices(const RunArguments& arguments) {
     std::vector<double> values(tangent.n_nonzero());
     const auto write = [&](const char* name, const Tangent::Factors& factors, const char* what) {
         tangent.assemble(state, Trial::of(state), factors, values);
-        write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, what);
+        const LowRank beside = tangent.beside(state, Trial::of(state), factors);
+        if (beside.empty()) {
+            write_matrix_market(out / name, {pattern.row_starts, pattern.columns, values}, what);
+        } else {
+            const Filled all = filled(pattern, values, beside);
+            write_matrix_market(out / name, {all.pattern.row_starts, all.pattern.columns, all.values}, what);
+        }
     };
     write("stiffness.mtx", {.stiffness = 1}, "stiffness, -df/du, N/m");
     write("damping.mtx", {.damping = 1, .velocity = 1}, "damping, C - df/dv, N s/m");

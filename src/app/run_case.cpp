@@ -146,7 +146,9 @@ void Run::open_results() {
 
     write_atomically(out_ / "deck.toml", deck_text_);
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
-    history_file_.emplace(out_ / "history.csv", history_columns(case_.cracking != nullptr), restart_time);
+    std::vector<CsvColumn> columns = history_columns(case_.cracking != nullptr);
+    add_model_columns(*case_.system, columns);
+    history_file_.emplace(out_ / "history.csv", columns, restart_time);
     if (!case_.probes.empty()) probes_file_.emplace(out_ / "probes.csv", case_.probes.columns(), restart_time);
     if (!case_.reactions.empty())
         reactions_file_.emplace(out_ / "reactions.csv", case_.reactions.columns(), restart_time);
@@ -183,6 +185,7 @@ void Run::write_rows(double dt) {
     balance_error_ = energies.balance_error();
     std::vector<double> row = history_row(state_.t, progress_.step, dt, energies);
     if (case_.cracking != nullptr) add_crack_columns(*case_.cracking, state_, row);
+    add_model_columns(*case_.system, state_, row);
     history_file_->row(row);
     if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state_));
     if (reactions_file_ && case_.reactions.n_constraints() != case_.system->constraints().size())

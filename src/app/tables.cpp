@@ -14,9 +14,10 @@ namespace gneiss {
 std::vector<CsvColumn> history_columns(bool cracks) {
     std::vector<CsvColumn> columns{{"t", "s"}, {"step"}, {"dt", "s"}};
     for (const char* energy :
-         {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "external_work",
-          "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing", "dissipated_friction",
-          "dissipated_fracture", "dissipated_contact", "splitting", "left_over"})
+         {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "stored_models",
+          "external_work", "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing",
+          "dissipated_friction", "dissipated_fracture", "dissipated_contact", "leaked", "dissipated_dampers",
+          "splitting", "left_over"})
         columns.push_back({energy, "J"});
     columns.push_back({"balance_error"});
     if (cracks) columns.insert(columns.end(), {{"cracked_length", "m"}, {"fragments"}, {"nodes"}});
@@ -27,6 +28,15 @@ void add_crack_columns(const Cracking& cracking, const State& state, std::vector
     row.push_back(cracking.joints().cracked_length(cracking.history(state)));
     row.push_back(static_cast<double>(count_fragments(cracking, state)));
     row.push_back(static_cast<double>(cracking.mesh().n_nodes()));
+}
+
+void add_model_columns(const SolidSystem& system, std::vector<CsvColumn>& columns) {
+    for (const auto& quantity : system.models().quantities(system.initial_state()))
+        columns.push_back({quantity.name, quantity.unit});
+}
+
+void add_model_columns(const SolidSystem& system, const State& state, std::vector<double>& row) {
+    for (const auto& quantity : system.models().quantities(state)) row.push_back(quantity.value);
 }
 
 std::vector<double> history_row(double t, std::size_t step, double dt, const EnergyLedger& ledger) {
@@ -40,6 +50,7 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
             stored.stress_power,
             stored.contact,
             stored.joints,
+            stored.models,
             path.external_work,
             path.support_work,
             path.damping,
@@ -48,6 +59,8 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
             path.friction,
             path.fracture,
             path.contact,
+            path.leaked,
+            path.dampers,
             path.splitting,
             ledger.left_over(),
             ledger.balance_error()};

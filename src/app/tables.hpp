@@ -17,6 +17,9 @@ namespace gneiss {
 /// The columns of history.csv.
 /// @param cracks  with those of add_crack_columns()
 std::vector<CsvColumn> history_columns(bool cracks = false);
+/// What lumped models have to tell, in columns behind all others: "cavity.pressure".
+void add_model_columns(const SolidSystem& system, std::vector<CsvColumn>& columns);
+void add_model_columns(const SolidSystem& system, const State& state, std::vector<double>& row);
 /// Length of edges that have failed (m, in the reference shape), number of fragments, number of nodes.
 void add_crack_columns(const Cracking& cracking, const State& state, std::vector<double>& row);
 /// One row of it, in the order of history_columns().

@@ -54,6 +54,19 @@ void FreeMatrix::take(std::span<const double> full, std::span<double> vector) co
     for (std::size_t i = 0; i < free_.size(); ++i) vector[i] = full[free_[i]];
 }
 
+LowRank FreeMatrix::take(const LowRank& full) const {
+    LowRank taken;
+    for (const LowRank::Dyad& dyad : full.dyads) {
+        LowRank::Dyad& to = taken.dyads.emplace_back(LowRank::Dyad{dyad.factor, {}});
+        for (const auto& [row, value] : dyad.column) {
+            const auto place = std::ranges::lower_bound(free_, static_cast<std::size_t>(row));
+            if (place != free_.end() && *place == static_cast<std::size_t>(row))
+                to.column.push_back({place - free_.begin(), value});
+        }
+    }
+    return taken;
+}
+
 void FreeMatrix::put(std::span<const double> vector, std::span<double> full) const {
     for (std::size_t i = 0; i < free_.size(); ++i) full[free_[i]] = vector[i];
 }
@@ -62,6 +75,21 @@ void FreeMatrix::subtract_fixed(std::span<const double> full_values, std::span<c
                                 std::span<double> right) const {
     for (const Coupling& c : couplings_)
         right[c.row] -= full_values[static_cast<std::size_t>(c.value)] * x_fixed[c.fixed];
+}
+
+void FreeMatrix::subtract_fixed(const LowRank& full, std::span<const double> x_fixed, std::span<double> right) const {
+    for (const LowRank::Dyad& dyad : full.dyads) {
+        double along = 0;  // b_c . x_c
+        std::vector<LowRank::Entry> column;
+        for (const auto& [row, value] : dyad.column) {
+            const auto place = std::ranges::lower_bound(free_, static_cast<std::size_t>(row)) - free_.begin();
+            if (place < std::ssize(free_) && free_[static_cast<std::size_t>(place)] == static_cast<std::size_t>(row))
+                column.push_back({place, value});
+            else
+                along += value * x_fixed[static_cast<std::size_t>(row - place)];
+        }
+        for (const auto& [row, value] : column) right[static_cast<std::size_t>(row)] -= dyad.factor * along * value;
+    }
 }
 
 }  // namespace gneiss

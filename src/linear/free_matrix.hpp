@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/low_rank.hpp"
 #include "linear/linear_solver.hpp"
 
 namespace gneiss {
@@ -26,12 +27,16 @@ public:
     void take_values(std::span<const double> full, std::span<double> values) const;
     /// @param[out] vector  free entries of a full one
     void take(std::span<const double> full, std::span<double> vector) const;
+    /// Its free rows and columns.
+    LowRank take(const LowRank& full) const;
     /// Writes the free entries of a full vector; leaves the others.
     void put(std::span<const double> vector, std::span<double> full) const;
     /// right -= A_fc x_c: what given changes of the fixed unknowns leave for the free equations.
     /// @param x_fixed  in the order of `fixed`
     void subtract_fixed(std::span<const double> full_values, std::span<const double> x_fixed,
                         std::span<double> right) const;
+    /// The same of what stands beside the matrix.
+    void subtract_fixed(const LowRank& full, std::span<const double> x_fixed, std::span<double> right) const;
 
 private:
     struct Coupling {

@@ -160,6 +160,50 @@ struct BoundaryOptions {
     AmplitudeOptions amplitude;
 };
 
+/// A charge that burns by Vieille's law: a part (p/p_ref)^exponent/time of what is left of it per unit of time.
+struct BurnOptions {
+    double energy = 0;              ///< J, > 0
+    double time = 0;                ///< s, > 0
+    double exponent = 0;            ///< >= 0
+    double reference_pressure = 0;  ///< Pa, > 0 where there is an exponent
+};
+
+/// A model of a few numbers that is coupled to a boundary.
+struct LumpedOptions {
+    enum class Kind {
+        gas,      ///< in a cavity: GasCavity
+        mass,     ///< a platen that moves along its direction: Platen
+        actuator  ///< a platen that is moved
+    };
+    Kind kind = Kind::gas;
+    std::string name;  ///< heads its columns, no two alike
+    std::string on;    ///< name of a boundary
+
+    // gas
+    double pressure = 0;                         ///< at t = 0, Pa, > 0
+    double gamma = 1.4;                          ///< exponent of its adiabatic, > 1
+    double leak = 0;                             ///< part of its mass that is lost per second, 1/s, >= 0
+    std::optional<BurnOptions> burn;             ///< a charge in it
+    std::optional<std::array<double, 2>> about;  ///< where planes of symmetry that close the boundary meet, m
+
+    // mass, actuator
+    std::array<double, 2> direction{0, 0};  ///< in which it pushes; any length > 0
+    double stiffness = 0;                   ///< between platen and boundary, N/m, > 0
+    double gap = 0;                         ///< before they touch, m, >= 0
+    bool bonded = false;                    ///< pulls as well as it pushes
+    AmplitudeOptions amplitude;             ///< on `force` or `displacement`; may not depend on x, y
+
+    // mass
+    double mass = 0;              ///< kg, > 0
+    double damping = 0;           ///< beside the stiffness, N s/m, >= 0
+    double ground_stiffness = 0;  ///< spring that holds the mass where it starts, N/m, >= 0
+    double velocity = 0;          ///< at t = 0, m/s, along the direction
+    double force = 0;             ///< on the mass, N, along the direction
+
+    // actuator
+    double displacement = 0;  ///< m, along the direction
+};
+
 struct InitialOptions {
     std::string on;                   ///< region or nodes; empty: everything
     std::array<Formula, 2> velocity;  ///< m/s; may use x, y
@@ -257,6 +301,7 @@ struct CaseOptions {
     std::vector<MaterialOptions> materials;
     std::vector<LoadOptions> loads;
     std::vector<BoundaryOptions> boundaries;
+    std::vector<LumpedOptions> lumped;
     std::vector<InitialOptions> initial;
     FractureOptions fracture;
     ContactOptions contact;

@@ -34,13 +34,19 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
       n_elements_(mesh.n_elements()),
       terms_(std::move(parts.terms)),
       interactions_(std::move(parts.interactions), elements_.n_history()),
+      models_(std::move(parts.models), elements_.n_internal()),
       constraints_(std::move(parts.constraints)),
       damping_(std::move(parts.damping)),
       initial_velocity_(std::move(parts.initial_velocity)),
       mass_(elements_.lumped_mass()),
       smallest_edge_(mesh_size(mesh).smallest_edge) {
     interactions_.take_chunks(elements_.chunk_of_node(), elements_.n_chunks());
+    n_mesh_dof_ = mass_.size();
+    models_.place_points(mesh.n_nodes());
+    for (const LumpedModel::Point& point : models_.points()) mass_.insert(mass_.end(), 2, point.mass);
     std::vector<double> switches = constraints_.switch_times();
+    const std::vector<double> of_models = models_.switch_times();
+    switches.insert(switches.end(), of_models.begin(), of_models.end());
     for (const auto& term : terms_) {
         const std::vector<double> own = term->switch_times();
         switches.insert(switches.end(), own.begin(), own.end());
@@ -50,28 +56,43 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
 }
 
 Layout SolidSystem::layout() const {
-    return {mass_.size(), elements_.n_internal(), elements_.n_history() + interactions_.n_history()};
+    return {mass_.size(), elements_.n_internal() + models_.n_internal(),
+            elements_.n_history() + interactions_.n_history()};
 }
 
 State SolidSystem::initial_state() const {
     State state;
     state.u.assign(mass_.size(), 0.0);
-    state.v = initial_velocity_.empty() ? std::vector<double>(mass_.size(), 0.0) : initial_velocity_;
-    state.z.resize(elements_.n_internal());
+    state.v = initial_velocity_;
+    state.v.resize(n_mesh_dof_);  // none given: all zero
+    for (const LumpedModel::Point& point : models_.points())
+        state.v.insert(state.v.end(), {point.velocity.x, point.velocity.y});
+    state.z.resize(layout().n_internal);
     state.history.resize(layout().n_history);
     elements_.initial_memory(state.z, state.history);
     interactions_.initial_history(state.history);
+    models_.initial_internal(state.z);
     if (elements_.viscous()) state.path.viscous_power = elements_.energies(state, Trial::of(state)).viscous_power;
     return state;
 }
 
 void SolidSystem::follow(const Parting& parting, std::optional<Surroundings> surroundings, State& accepted) {
     elements_.renumber(parting.mesh, parting.elements);
-    for (const NodeCopy& copy : parting.copies)
-        for (std::vector<double>* nodal : {&accepted.u, &accepted.v})
+    const auto points = [this](std::vector<double>& nodal) {
+        return nodal.begin() + static_cast<std::ptrdiff_t>(n_mesh_dof_);
+    };
+    const std::vector<double> point_mass(points(mass_), mass_.end());
+    for (std::vector<double>* nodal : {&accepted.u, &accepted.v}) {
+        const std::vector<double> of_points(points(*nodal), nodal->end());
+        nodal->erase(points(*nodal), nodal->end());
+        for (const NodeCopy& copy : parting.copies)
             for (std::size_t c = 0; c < 2; ++c)
                 nodal->push_back(double{(*nodal)[2 * static_cast<std::size_t>(copy.original) + c]});
-    mass_.resize(2 * parting.mesh.n_nodes());
+        nodal->insert(nodal->end(), of_points.begin(), of_points.end());
+    }
+    n_mesh_dof_ = 2 * parting.mesh.n_nodes();
+    mass_.erase(mass_.end() - std::ssize(point_mass), mass_.end());
+    mass_.resize(n_mesh_dof_);
     std::vector<bool> weighed(parting.mesh.n_nodes(), true);
     const auto n = static_cast<std::size_t>(parting.mesh.nodes_per_element());
     for (const NodeCopy& copy : parting.copies)
@@ -91,11 +112,14 @@ void SolidSystem::follow(const Parting& parting, std::optional<Surroundings> sur
                 if (!weighed[i]) mass_[2 * i + c] += own_mass_[2 * i + c];
         }
     }
+    mass_.insert(mass_.end(), point_mass.begin(), point_mass.end());
     if (surroundings) {
         terms_ = std::move(surroundings->terms);
         constraints_ = std::move(surroundings->constraints);
         damping_.blocks = std::move(surroundings->damping);
+        models_.replace(std::move(surroundings->models));
     }
+    models_.place_points(parting.mesh.n_nodes());
     interactions_.follow(parting, accepted);
     tangent_.reset();
 }
@@ -106,22 +130,28 @@ void SolidSystem::constraint_values(double t, double last_event, std::span<doubl
 
 void SolidSystem::force(const State& accepted, const Trial& trial, std::span<double> f) const {
     elements_.force(accepted, trial, f, {}, {}, {&interactions_, nullptr});
-    interactions_.add_force(accepted, trial, f, {});
-    for (const auto& term : terms_) term->add_force(trial, f);
+    add_rest(accepted, trial, f, {}, {});
 }
 
 void SolidSystem::force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
                                    std::span<double> history) const {
     elements_.force(accepted, trial, f, z, history, {&interactions_, nullptr});
-    interactions_.add_force(accepted, trial, f, history);
-    for (const auto& term : terms_) term->add_force(trial, f);
+    add_rest(accepted, trial, f, z, history);
 }
 
 void SolidSystem::force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival,
                                    std::span<double> f, std::span<double> z, std::span<double> history) const {
+    arrival.bring(n_mesh_dof_, f.size());
     elements_.force(accepted, trial, f, z, history, {&interactions_, &arrival});
+    add_rest(accepted, trial, f, z, history);
+}
+
+void SolidSystem::add_rest(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                           std::span<double> history) const {
+    std::ranges::fill(f.subspan(n_mesh_dof_), 0.0);
     interactions_.add_force(accepted, trial, f, history);
     for (const auto& term : terms_) term->add_force(trial, f);
+    models_.add_force(accepted, trial, f, z);
 }
 
 void SolidSystem::external_force(const Trial& trial, std::span<double> f) const {
@@ -131,22 +161,33 @@ void SolidSystem::external_force(const Trial& trial, std::span<double> f) const 
 
 void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {
     elements_.internal_rate(accepted, trial, rate);
+    models_.internal_rate(trial, rate);
+}
+
+void SolidSystem::internal_weights(std::span<double> weights) const {
+    elements_.internal_weights(weights);
+    std::ranges::fill(weights.subspan(elements_.n_internal()), 1.0);
 }
 
 const Tangent* SolidSystem::tangent() const {
-    if (!tangent_) tangent_ = std::make_unique<SolidTangent>(elements_, terms_, interactions_, mass_, damping_);
+    if (!tangent_)
+        tangent_ = std::make_unique<SolidTangent>(elements_, terms_, interactions_, models_, mass_, damping_);
     return tangent_.get();
 }
 
 FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
     const ElementBlock::Rates rates = elements_.largest_rates(accepted);
     const double of_bonds = bond_omega_squared(accepted);
-    return {std::sqrt(rates.omega_squared + of_bonds), rates.damping, of_bonds};
+    const LumpedModel::Rates of_models = models_.largest_rates(accepted, mass_);
+    return {std::sqrt(rates.omega_squared + of_bonds + of_models.omega_squared), rates.damping + of_models.damping,
+            of_bonds};
 }
 
 void SolidSystem::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {
     elements_.stiffness_bound(accepted, trial, bound);
+    std::ranges::fill(bound.subspan(n_mesh_dof_), 0.0);
     interactions_.add_stiffness_bound(accepted, trial, bound);
+    models_.add_stiffness_bound(accepted, trial, bound);
 }
 
 StoredEnergies SolidSystem::stored_energies(const State& state) const {
@@ -157,6 +198,7 @@ StoredEnergies SolidSystem::stored_energies(const State& state) const {
     energies.material = sums.stored;
     energies.stress_power = sums.stress_power;
     interactions_.add_stored(state, energies);
+    energies.models = models_.stored_energy(state);
     return energies;
 }
 
@@ -167,6 +209,7 @@ void SolidSystem::add_path_energies(const State& from, State& to) const {
     after.last_event = from.last_event;  // the step ends before what switches at its end
     for (const auto& term : terms_) term->add_path_energies(before, after, to.path);
     interactions_.add_dissipated(from, to);
+    models_.add_path_energies(from, before, to, after, to.path);
     if (!damping_.blocks.empty()) to.path.absorbing += absorbed_work(damping_.blocks, before, after);
     if (damping_.mass_proportional > 0) {
         const double sum = ordered_sum(mass_.size(), partial_, [&](std::size_t first, std::size_t last) {

@@ -10,6 +10,7 @@
 #include "model/element_forces.hpp"
 #include "model/force_term.hpp"
 #include "model/interaction.hpp"
+#include "model/lumped_models.hpp"
 #include "model/solid_tangent.hpp"
 #include "system/semi_discrete.hpp"
 
@@ -21,6 +22,7 @@ public:
         std::vector<std::unique_ptr<ElementBlock>> blocks;
         std::vector<std::unique_ptr<ForceTerm>> terms;
         std::vector<std::unique_ptr<Interaction>> interactions = {};
+        std::vector<std::unique_ptr<LumpedModel>> models = {};
         ConstraintSet constraints;
         Damping damping;
         std::vector<double> initial_velocity;  ///< m/s, shape (2 n_nodes)
@@ -34,7 +36,7 @@ public:
     const Damping& damping() const override { return damping_; }
     std::span<const Constraint> constraints() const override { return constraints_.constraints(); }
     void constraint_values(double t, double last_event, std::span<double> values) const override;
-    bool force_depends_on_velocity() const override { return elements_.viscous(); }
+    bool force_depends_on_velocity() const override { return elements_.viscous() || models_.depend_on_velocity(); }
     bool irreversible() const override { return interactions_.irreversible(); }
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override;
     void force_and_update(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
@@ -43,7 +45,7 @@ public:
                           std::span<double> z, std::span<double> history) const override;
     void external_force(const Trial& trial, std::span<double> f) const override;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
-    void internal_weights(std::span<double> weights) const override { elements_.internal_weights(weights); }
+    void internal_weights(std::span<double> weights) const override;
     double smallest_length() const override { return smallest_edge_; }
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
@@ -58,12 +60,14 @@ public:
     std::span<const std::unique_ptr<Event>> events() const override { return events_; }
 
     const ElementForces& elements() const { return elements_; }
+    const LumpedModels& models() const { return models_; }
 
     /// What stands around a solid.
     struct Surroundings {
         std::vector<std::unique_ptr<ForceTerm>> terms;
         ConstraintSet constraints;
         std::vector<Damping::Block> damping;
+        std::vector<std::unique_ptr<LumpedModel>> models;  ///< as many as there were
     };
     /// Follows a mesh that has come apart, with an accepted state: a copy moves as its original did, and the mass of
     /// both is that of their elements. A tangent made before is gone.
@@ -88,12 +92,18 @@ private:
     std::size_t n_elements_;
     std::vector<std::unique_ptr<ForceTerm>> terms_;
     Interactions interactions_;
+    LumpedModels models_;
+    std::size_t n_mesh_dof_;  ///< in front of those of the models' points
     ConstraintSet constraints_;
     Damping damping_;
     std::vector<double> initial_velocity_;
     std::vector<double> mass_, own_mass_;  ///< own_mass_: scratch
     double smallest_edge_;
     std::vector<std::unique_ptr<Event>> events_;
+    /// What is not of the elements; their force stands in f, and points have none yet.
+    void add_rest(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z,
+                  std::span<double> history) const;
+
     mutable std::vector<double> partial_;            ///< scratch of sums
     mutable std::unique_ptr<SolidTangent> tangent_;  ///< null before it is asked for
 };

@@ -23,9 +23,14 @@ std::size_t lane_of(std::uint32_t n, std::uint32_t local, std::uint32_t k) {
 }  // namespace
 
 SolidTangent::SolidTangent(const ElementForces& elements, std::span<const std::unique_ptr<ForceTerm>> terms,
-                           const Interactions& interactions, std::span<const double> lumped_mass,
-                           const Damping& damping)
-    : elements_(elements), terms_(terms), interactions_(interactions), mass_(lumped_mass), damping_(damping) {
+                           const Interactions& interactions, const LumpedModels& models,
+                           std::span<const double> lumped_mass, const Damping& damping)
+    : elements_(elements),
+      terms_(terms),
+      interactions_(interactions),
+      models_(models),
+      mass_(lumped_mass),
+      damping_(damping) {
     symmetric_ = std::ranges::all_of(elements.blocks(), [](const auto& block) { return block->symmetric_tangent(); });
     for (const auto& term : terms) {
         couplings_.push_back(term->couplings());
@@ -35,6 +40,7 @@ SolidTangent::SolidTangent(const ElementForces& elements, std::span<const std::u
         couplings_.push_back(interactions_[i].couplings());
         symmetric_ = symmetric_ && interactions_[i].symmetric();
     }
+    for (std::size_t i = 0; i < models_.size(); ++i) couplings_.push_back(models_[i].couplings());
     std::size_t most = 0;
     for (const auto& pairs : couplings_) most = std::max(most, pairs.size());
     term_stiffness_.resize(most);
@@ -217,11 +223,26 @@ std::span<const ForceTerm::Stiffness> SolidTangent::stiffness(std::size_t term, 
     const std::span stiffness(term_stiffness_.data(), couplings_[term].size());
     if (term < terms_.size()) {
         terms_[term]->stiffness(trial, stiffness);
-    } else {
-        const std::size_t i = term - terms_.size();
+    } else if (const std::size_t i = term - terms_.size(); i < interactions_.size()) {
         interactions_[i].stiffness(trial, interactions_.part(i, std::span<const double>(accepted.history)), stiffness);
+    } else {
+        models_.stiffness(i - interactions_.size(), accepted, trial, stiffness);
     }
     return stiffness;
+}
+
+template <class Body>
+void SolidTangent::for_each_term(const State& accepted, const Trial& trial, const Factors& factors, Body body) const {
+    if (factors.stiffness != 0)
+        for (std::size_t t = 0; t < couplings_.size(); ++t) body(t, factors.stiffness, stiffness(t, accepted, trial));
+    if (factors.velocity == 0) return;
+    for (std::size_t i = 0; i < models_.size(); ++i) {
+        if (!models_[i].depends_on_velocity()) continue;
+        const std::size_t t = terms_.size() + interactions_.size() + i;
+        const std::span df_dv(term_stiffness_.data(), couplings_[t].size());
+        models_.velocity_stiffness(i, accepted, trial, df_dv);
+        body(t, factors.velocity, std::span<const ForceTerm::Stiffness>(df_dv));
+    }
 }
 
 void SolidTangent::assemble(const State& accepted, const Trial& trial, const Factors& factors,
@@ -253,15 +274,11 @@ void SolidTangent::assemble(const State& accepted, const Trial& trial, const Fac
         return ElementBlock::MatrixPlaces{at.blocks[block].data(), at.row_pairs.data()};
     };
     add_elements(accepted, trial, factors, block_places, values.data());
-    if (factors.stiffness == 0) return;
-    for (std::size_t t = 0; t < couplings_.size(); ++t) {
-        const auto term = stiffness(t, accepted, trial);
-        for (std::size_t i = 0; i < term.size(); ++i) {
-            const double c = -factors.stiffness;
-            add_block(static_cast<std::size_t>(couplings_[t][i][0]), at.terms[t][i], c * term[i].xx, c * term[i].xy,
-                      c * term[i].yx, c * term[i].yy);
-        }
-    }
+    for_each_term(accepted, trial, factors, [&](std::size_t t, double c, std::span<const ForceTerm::Stiffness> term) {
+        for (std::size_t i = 0; i < term.size(); ++i)
+            add_block(static_cast<std::size_t>(couplings_[t][i][0]), at.terms[t][i], -c * term[i].xx, -c * term[i].xy,
+                      -c * term[i].yx, -c * term[i].yy);
+    });
 }
 
 void SolidTangent::assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
@@ -277,13 +294,13 @@ void SolidTangent::assemble_diagonal(const State& accepted, const Trial& trial, 
     for (const Damping::Block& block : damping_.blocks) add(block.node, factors.damping, block.xx, block.yy);
     const auto no_places = [](std::size_t) { return ElementBlock::MatrixPlaces{nullptr, nullptr}; };
     add_elements(accepted, trial, factors, no_places, diagonal.data());
-    if (factors.stiffness == 0) return;
-    for (std::size_t t = 0; t < couplings_.size(); ++t) {
-        const auto term = stiffness(t, accepted, trial);
+    for_each_term(accepted, trial, factors, [&](std::size_t t, double c, std::span<const ForceTerm::Stiffness> term) {
         for (std::size_t i = 0; i < term.size(); ++i)
-            if (couplings_[t][i][0] == couplings_[t][i][1])
-                add(couplings_[t][i][0], -factors.stiffness, term[i].xx, term[i].yy);
-    }
+            if (couplings_[t][i][0] == couplings_[t][i][1]) add(couplings_[t][i][0], -c, term[i].xx, term[i].yy);
+    });
+    for (const LowRank::Dyad& dyad : beside(accepted, trial, factors).dyads)
+        for (const auto& [row, value] : dyad.column)
+            diagonal[static_cast<std::size_t>(row)] += dyad.factor * value * value;
 }
 
 }  // namespace gneiss

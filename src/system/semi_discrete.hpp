@@ -19,7 +19,7 @@ namespace gneiss {
 
 /// Sizes of a system.
 struct Layout {
-    std::size_t n_dof = 0;       ///< displacements: 2 per node
+    std::size_t n_dof = 0;       ///< displacements: 2 per node, of the mesh and, behind them, of lumped models
     std::size_t n_internal = 0;  ///< z
     std::size_t n_history = 0;
 };
@@ -48,8 +48,9 @@ struct StoredEnergies {
     double stress_power = 0;  ///< accumulated stress power of laws that have none
     double contact = 0;
     double joints = 0;
+    double models = 0;  ///< lumped models: gas with its charge, springs
 
-    double sum() const { return material + stress_power + contact + joints; }
+    double sum() const { return material + stress_power + contact + joints + models; }
 };
 
 /// What limits an explicit step.

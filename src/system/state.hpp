@@ -20,6 +20,8 @@ struct PathEnergies {
     double friction = 0;       ///< dissipated by friction
     double fracture = 0;       ///< dissipated by damage of cohesive edges
     double contact = 0;        ///< dissipated in contact by restitution
+    double leaked = 0;         ///< carried away by gas that leaks
+    double dampers = 0;        ///< dissipated by dampers of lumped models
     double splitting = 0;      ///< that events of topology have put in, counted positive: springs that came into being
                                ///< under load, jumps of the contact potential; they are no work and no dissipation
     double viscous_power = 0;  ///< W, rate of `viscous` at the last accepted state
@@ -27,9 +29,9 @@ struct PathEnergies {
     friend bool operator==(const PathEnergies&, const PathEnergies&) = default;
 
     /// All of them in a fixed order.
-    std::array<double*, 10> members() {
-        return {&external_work, &support_work, &damping, &viscous,   &absorbing,
-                &friction,      &fracture,     &contact, &splitting, &viscous_power};
+    std::array<double*, 12> members() {
+        return {&external_work, &support_work, &damping, &viscous, &absorbing, &friction,
+                &fracture,      &contact,      &leaked,  &dampers, &splitting, &viscous_power};
     }
 };
 

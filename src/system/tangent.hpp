@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/low_rank.hpp"
 #include "system/state.hpp"
 
 namespace gneiss {
@@ -16,7 +17,8 @@ struct MatrixPattern {
     std::vector<std::int64_t> columns;     ///< shape (n_nonzero)
 };
 
-/// c_M M + c_C C - c_K df/du - c_V df/dv, dz/du folded in, as a compressed-row matrix over all degrees of freedom.
+/// c_M M + c_C C - c_K df/du - c_V df/dv, dz/du folded in, over all degrees of freedom: a compressed-row matrix and,
+/// where one number couples many degrees of freedom, a few dyads beside it.
 class Tangent {
 public:
     struct Factors {
@@ -25,7 +27,7 @@ public:
 
     virtual ~Tangent() = default;
     virtual bool symmetric() const = 0;
-    /// The diagonal alone: what preconditions iterations without a matrix.
+    /// The diagonal of all of it alone: what preconditions iterations without a matrix.
     /// @param[out] diagonal  overwritten, shape (n_dof)
     virtual void assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
                                    std::span<double> diagonal) const = 0;
@@ -35,6 +37,13 @@ public:
     /// @param[out] values  overwritten, shape (n_nonzero)
     virtual void assemble(const State& accepted, const Trial& trial, const Factors& factors,
                           std::span<double> values) const = 0;
+    /// What stands beside the compressed rows.
+    virtual LowRank beside(const State& accepted, const Trial& trial, const Factors& factors) const {
+        (void)accepted;
+        (void)trial;
+        (void)factors;
+        return {};
+    }
 };
 
 }  // namespace gneiss

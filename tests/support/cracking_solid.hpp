@@ -37,12 +37,14 @@ inline CrackingSolid cracking_solid(Mesh mesh, const SolidDescription& what, con
     const auto surroundings = [what](const Mesh& now) {
         SolidSystem::Surroundings around;
         around.terms = make_loads(now, what.loads, what.solid.thickness);
+        around.models = make_lumped(now, what.lumped, what.solid.thickness);
         around.constraints = make_constraints(now, what.boundaries);
         return around;
     };
     SolidSystem::Surroundings around = surroundings(*solid.mesh);
     parts.terms = std::move(around.terms);
     parts.constraints = std::move(around.constraints);
+    parts.models = std::move(around.models);
     parts.initial_velocity = initial_velocity(*solid.mesh, what.initial);
     parts.damping.mass_proportional = what.mass_damping;
     const std::vector<JointEdge> edges = all_edges(*solid.mesh, *solid.inner);

@@ -16,6 +16,7 @@
 #include "model/initial_conditions.hpp"
 #include "model/loads.hpp"
 #include "model/make_blocks.hpp"
+#include "model/make_lumped.hpp"
 #include "model/solid_system.hpp"
 
 namespace gneiss::test {
@@ -65,6 +66,7 @@ struct SolidDescription {
     std::vector<BoundaryOptions> boundaries;
     std::vector<InitialOptions> initial;
     double mass_damping = 0;
+    std::vector<LumpedOptions> lumped = {};
 };
 
 /// As the program builds it, absorbing boundaries included.
@@ -75,6 +77,7 @@ inline Solid make_solid(Mesh mesh, const SolidDescription& what,
     SolidSystem::Parts parts;
     parts.blocks = make_blocks(solid.mesh, what.solid, what.materials);
     parts.terms = make_loads(solid.mesh, what.loads, what.solid.thickness);
+    parts.models = make_lumped(solid.mesh, what.lumped, what.solid.thickness);
     parts.constraints = make_constraints(solid.mesh, what.boundaries);
     parts.initial_velocity = initial_velocity(solid.mesh, what.initial);
     parts.damping.mass_proportional = what.mass_damping;
@@ -107,13 +110,17 @@ inline Eigen::MatrixXd dense(const SparsePattern& pattern, std::span<const doubl
     return matrix;
 }
 
-/// An assembled tangent.
+/// An assembled tangent, with what stands beside it.
 inline Eigen::MatrixXd dense(const Tangent& tangent, const State& accepted, const Trial& trial,
                              const Tangent::Factors& factors) {
     const MatrixPattern pattern = tangent.pattern();
     std::vector<double> values(tangent.n_nonzero(), 1e300);
     tangent.assemble(accepted, trial, factors, values);
-    return dense({pattern.row_starts, pattern.columns}, values);
+    Eigen::MatrixXd matrix = dense({pattern.row_starts, pattern.columns}, values);
+    for (const auto& [factor, column] : tangent.beside(accepted, trial, factors).dyads)
+        for (const auto& [row, a] : column)
+            for (const auto& [other, b] : column) matrix(row, other) += factor * a * b;
+    return matrix;
 }
 
 /// K = -df/du at an accepted state by central differences of 1e-6 of an edge: relative error about 1e-9.

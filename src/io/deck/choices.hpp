@@ -81,6 +81,12 @@ inline constexpr std::array<Choice<LoadOptions::Kind>, 4> loads{{
     {"body_force", LoadOptions::Kind::body_force, "force per initial volume of a region"},
 }};
 
+inline constexpr std::array<Choice<LumpedOptions::Kind>, 3> lumped_models{{
+    {"gas", LumpedOptions::Kind::gas, "ideal gas in a cavity, its pressure from the current volume; may leak and burn"},
+    {"mass", LumpedOptions::Kind::mass, "rigid platen with a mass on spring and damper: a drop hammer"},
+    {"actuator", LumpedOptions::Kind::actuator, "rigid platen on a spring whose motion is given: a testing machine"},
+}};
+
 inline constexpr std::array<Choice<BoundaryWord>, 4> boundaries{{
     {"fixed", BoundaryWord::fixed, "no displacement"},
     {"displacement", BoundaryWord::displacement, "given displacement, either component or both"},

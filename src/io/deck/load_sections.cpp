@@ -1,5 +1,6 @@
 // [[load]], [[boundary]], [[initial]] and their amplitudes.
 
+#include "io/deck/amplitude_key.hpp"
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
 #include "model/formula.hpp"
@@ -106,13 +107,6 @@ void check_amplitude(TableReader& table, AmplitudeOptions& amplitude) {
         table.problem("end", fmt::format("given {}, must be > {} s, the start", amplitude.end, amplitude.start));
     }
     if (amplitude.kind == AmplitudeOptions::Kind::table && !table.failed("times")) check_times(table, amplitude);
-}
-
-template <class T>
-Key<T> amplitude_key(const Spec& spec) {
-    const std::string default_text = fmt::format("\"{}\"", name_of(amplitudes, AmplitudeOptions{}.kind));
-    return custom<T>("amplitude", "a string or a table", default_text, spec,
-                     [](const Value& value, TableReader&, T& out) { return read_amplitude(value, out.amplitude); });
 }
 
 }  // namespace

@@ -92,7 +92,10 @@ const std::vector<SectionDoc>& section_docs() {
         describe("material.strength", "material.strength", {"material.strength"}, strength_section()),
         describe("load", "[[load]]", {"load"}, load_section()),
         describe("boundary", "[[boundary]]", {"boundary"}, boundary_section()),
-        describe("amplitude", "an amplitude", {"load.amplitude", "boundary.amplitude"}, amplitude_section()),
+        describe("lumped", "[[lumped]]", {"lumped"}, lumped_section()),
+        describe("lumped.burn", "lumped.burn", {"lumped.burn"}, burn_section()),
+        describe("amplitude", "an amplitude", {"load.amplitude", "boundary.amplitude", "lumped.amplitude"},
+                 amplitude_section()),
         describe("initial", "[[initial]]", {"initial"}, initial_section()),
         describe("fracture", "[fracture]", {"fracture"}, fracture_section()),
         describe("contact", "[contact]", {"contact"}, contact_section()),
@@ -135,6 +138,7 @@ std::vector<Listing> deck_listings() {
             list("integrators", "integrator.type", integrators),
             list("loads", "load.type", loads),
             list("boundaries", "boundary.type", boundaries),
+            list("lumped models", "lumped.type", lumped_models),
             list("amplitudes", "load.amplitude", amplitudes),
             list("meshes", "mesh.generator", mesh_generators)};
 }

@@ -82,14 +82,27 @@ void check_output(TableReader& table, OutputOptions& output) {
     }
 }
 
-bool read_probe_name(const Value& value, TableReader&, ProbeOptions& out) {
-    if (!value.read(out.name)) return false;
-    if (out.name.find_first_of(",\"' \t\n") == std::string::npos) return true;
-    value.refuse("free of blanks, commas and quotes: it heads columns of probes.csv");
-    return false;
+/// Reports names that one of [[lumped]] has taken already.
+void check_model_names(const TableReader& table, const std::vector<LumpedOptions>& models) {
+    std::map<std::string, std::size_t> owner;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const auto [found, is_new] = owner.emplace(models[i].name, i);
+        if (is_new || models[i].name.empty()) continue;
+        const toml::node& node = *table.table()["lumped"][i]["name"].node();
+        Value(table.findings(), node, fmt::format("lumped[{}].name", i), table.where())
+            .problem(
+                fmt::format("given \"{}\", which is the name of lumped[{}] already", models[i].name, found->second));
+    }
 }
 
 }  // namespace
+
+bool read_column_name(const Value& value, std::string& out, std::string_view file) {
+    if (!value.read(out)) return false;
+    if (out.find_first_of(",\"' \t\n") == std::string::npos) return true;
+    value.refuse(fmt::format("free of blanks, commas and quotes: it heads columns of {}", file));
+    return false;
+}
 
 const Section<BoundaryPart>& part_section() {
     using P = BoundaryPart;
@@ -213,10 +226,11 @@ const Section<RunOptions>& run_section() {
 const Section<ProbeOptions>& probe_section() {
     using P = ProbeOptions;
     static const Section<P> section{
-        {custom<P>("name", "a string", "",
-                   {.required = true,
-                    .meaning = "heads the columns of probes.csv; no two alike, no blanks, commas or quotes"},
-                   read_probe_name),
+        {custom<P>(
+             "name", "a string", "",
+             {.required = true,
+              .meaning = "heads the columns of probes.csv; no two alike, no blanks, commas or quotes"},
+             [](const Value& value, TableReader&, P& out) { return read_column_name(value, out.name, "probes.csv"); }),
          numbers("at", &P::at, {.unit = "m", .required = true, .meaning = "position in the reference shape, [x, y]"}),
          numbers("about", &P::about,
                  {.unit = "m", .meaning = "centre, [x, y]: adds the components along and across the ray from it"})}};
@@ -255,6 +269,7 @@ const Section<CaseOptions>& case_section() {
         if (table.given("material") && out.materials.empty() && !table.failed("material")) {
             table.problem("material", "given none, must be at least one [[material]]");
         }
+        check_model_names(table, out.lumped);
         if (!out.walls.empty() && out.contact.method == ContactOptions::Method::none && !table.failed("contact"))
             table.problem("wall", "has no effect without `contact.method`");
         for (std::size_t i = 0; i < out.walls.size(); ++i)
@@ -284,6 +299,8 @@ const Section<CaseOptions>& case_section() {
          tables("load", &C::loads, load_section, {.meaning = "loads, one `[[load]]` each"}),
          tables("boundary", &C::boundaries, boundary_section,
                 {.meaning = "boundary conditions, one `[[boundary]]` each"}),
+         tables("lumped", &C::lumped, lumped_section,
+                {.meaning = "gas in cavities, masses and actuators on boundaries, one `[[lumped]]` each"}),
          tables("initial", &C::initial, initial_section, {.meaning = "initial velocities, one `[[initial]]` each"}),
          table("fracture", &C::fracture, fracture_section, {.meaning = "cracks along edges of elements"}),
          table("contact", &C::contact, contact_section, {.meaning = "contact of bodies, and of the faces of cracks"}),

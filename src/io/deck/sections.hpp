@@ -15,6 +15,8 @@ const Section<SolidOptions>& solid_section();
 const Section<MaterialOptions>& material_section();
 const Section<LoadOptions>& load_section();
 const Section<BoundaryOptions>& boundary_section();
+const Section<LumpedOptions>& lumped_section();
+const Section<BurnOptions>& burn_section();
 const Section<InitialOptions>& initial_section();
 const Section<IntegratorOptions>& integrator_section();
 const Section<RunOptions>& run_section();
@@ -50,6 +52,9 @@ bool check_constants_set(const Value& value, const GivenConstants& given, LawKin
 /// Turns one complete set of constants under `value` into those of the law; [solid] plane decides how. Reports what is
 /// inconsistent or inadmissible.
 bool resolve_constants(const Value& value, const GivenConstants& given, MaterialOptions& material);
+
+/// Reads a name that heads columns of a file, "history.csv".
+bool read_column_name(const Value& value, std::string& out, std::string_view file);
 
 /// Reads an amplitude: a table, or the bare name of one that needs nothing else.
 bool read_amplitude(const Value& value, AmplitudeOptions& out);

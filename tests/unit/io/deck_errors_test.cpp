@@ -96,6 +96,32 @@ TEST(DeckErrors, CracksAndInterfaces) {
     });
 }
 
+TEST(DeckErrors, LumpedModels) {
+    const std::string gas = "type = \"gas\", name = \"a\", on = \"top\", pressure = 1",
+                      platen = "name = \"a\", on = \"top\", direction = [0, 1], stiffness = 1";
+    expect_messages({
+        {{"lumped=[{ " + gas + " }, { " + gas + " }]"},
+         {"key `lumped[1].name`: given \"a\", which is the name of lumped[0] already"}},
+        {{"lumped=[{ type = \"gas\", name = \"a b\", on = \"top\", pressure = -1, gamma = 1 }]"},
+         {"key `lumped[0].name`: given \"a b\", must be free of blanks, commas and quotes: it heads columns of "
+          "history.csv",
+          "key `lumped[0].pressure`: given -1, must be > 0 Pa", "key `lumped[0].gamma`: given 1, must be > 1"}},
+        {{"lumped=[{ " + gas + ", burn = { energy = 1, time = 1, exponent = 0.5 } }]"},
+         {"key `lumped[0].burn.reference_pressure`: missing, needed with exponent = 0.5: what the pressure is measured "
+          "against"}},
+        {{"lumped=[{ " + gas + ", burn = { energy = 1, time = 1, reference_pressure = 1 } }]"},
+         {"key `lumped[0].burn.reference_pressure`: has no effect: with exponent = 0 the pressure does not matter"}},
+        {{"lumped=[{ type = \"mass\", " + platen + " }]"}, {"key `lumped[0].mass`: missing, must be a number > 0 kg"}},
+        {{"lumped=[{ type = \"mass\", mass = 1, amplitude = \"heaviside\", " + platen + " }]"},
+         {"key `lumped[0].amplitude`: has no effect without `force`"}},
+        {{"lumped=[{ type = \"actuator\", displacement = 1, damping = 1, " + platen + " }]"},
+         {"key `lumped[0].damping`: only for `type` = \"mass\", here `type` is \"actuator\""}},
+        {{"lumped=[{ type = \"actuator\", displacement = 1, name = \"a\", on = \"top\", direction = [0, 0], "
+          "stiffness = 1 }]"},
+         {"key `lumped[0].direction`: has no length"}},
+    });
+}
+
 TEST(DeckErrors, UnknownKeysAndWords) {
     expect_messages({
         {{"slid.plane=stress"}, {"key `slid`: unknown, did you mean `solid`?"}},

@@ -98,6 +98,36 @@ on = "outer"
 type = "displacement"
 value = [0, "free"]
 amplitude = { type = "heaviside", start = 0.5 }
+[[lumped]]
+type = "gas"
+name = "blast"
+on = "hole"
+pressure = 1e6
+gamma = 1.3
+leak = 10
+burn = { energy = 1e6, time = 1e-3, exponent = 0.7, reference_pressure = 1e7 }
+about = [0, 0]
+[[lumped]]
+type = "mass"
+name = "hammer"
+on = "top"
+direction = [0, -1]
+mass = 100
+stiffness = 1e9
+damping = 1e5
+gap = 1e-3
+bonded = false
+ground_stiffness = 1e3
+velocity = 4
+force = 981
+[[lumped]]
+type = "actuator"
+name = "jack"
+on = "bottom"
+direction = [0, 1]
+stiffness = 1e9
+displacement = 1e-3
+amplitude = { type = "ramp", end = 1e-2 }
 [[initial]]
 on = "rock"
 velocity = [0, "0.1*x"]
@@ -341,7 +371,8 @@ TEST(DeckReference, EveryKey_IsAcceptedInSomeDeck) {
     }
     std::vector<std::string> unused;
     for (const std::string& key : deck_keys()) {
-        const bool also_in_boundary = key.starts_with("boundary.amplitude.") || key.starts_with("load.amplitude.");
+        const bool also_in_boundary = key.starts_with("boundary.amplitude.") || key.starts_with("load.amplitude.") ||
+                                      key.starts_with("lumped.amplitude.");
         const std::string bare = key.substr(key.rfind('.') + 1);
         if (used.contains(key) || (also_in_boundary && (used.contains("load.amplitude." + bare) ||
                                                         used.contains("boundary.amplitude." + bare)))) {
@@ -484,7 +515,8 @@ TEST(DeckListings, EveryTopic_HasEntriesWithMeanings) {
         EXPECT_FALSE(listing.entries.empty()) << listing.topic;
         for (const auto& entry : listing.entries) EXPECT_FALSE(entry.name.empty() || entry.meaning.empty());
     }
-    for (const char* topic : {"elements", "materials", "integrators", "loads", "boundaries", "amplitudes"}) {
+    for (const char* topic :
+         {"elements", "materials", "integrators", "loads", "boundaries", "lumped models", "amplitudes"}) {
         EXPECT_TRUE(topics.contains(topic)) << topic;
     }
 }

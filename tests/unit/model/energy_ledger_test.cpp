@@ -32,8 +32,12 @@ TEST(EnergyLedger, EveryEntry_LeftOver_CountsItWithItsSign) {
     EXPECT_EQ(ledger.left_over(), 1 + 240 + 16128);
     ledger.path.splitting = 16384;
     EXPECT_EQ(ledger.left_over(), 1 + 240 - 256);
+    ledger.stored.models = 32768;
+    ledger.path.leaked = 65536;
+    ledger.path.dampers = 131072;
+    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256 + 229376);
     ledger.path.viscous_power = 1e9;  // a rate, no energy
-    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256);
+    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256 + 229376);
 }
 
 TEST(EnergyLedger, BalanceError_IsRelativeToTheLargestEntry) {
