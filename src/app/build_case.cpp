@@ -8,7 +8,6 @@
 
 #include "base/errors.hpp"
 #include "contact/make_contact.hpp"
-#include "contact/walls.hpp"
 #include "fracture/cohesion.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
@@ -168,16 +167,19 @@ Case build_case(CaseOptions options) {
             }
         });
     std::vector<std::unique_ptr<Interaction>> contacts;
-    const ContactBodies* in_contact = nullptr;
+    const Contact* contact = nullptr;
+    const Walls* walls = nullptr;
     if (options.contact.method != ContactOptions::Method::none && !parts.blocks.empty())
         collect(problems, [&] {
             const auto original_of = built.inner ? built.inner->original_of() : std::span<const std::int32_t>{};
             auto bodies = make_contact({*built.mesh, original_of, named.cracked}, parts.blocks, options.solid,
                                        options.contact, cracks);
-            in_contact = &bodies->bodies();
-            auto walls = options.walls.empty() ? nullptr : make_walls(*bodies, options.walls, options.contact.friction);
+            contact = bodies.get();
             contacts.push_back(std::move(bodies));
-            if (walls) contacts.push_back(std::move(walls));
+            if (options.walls.empty()) return;
+            auto made = make_walls(*contact, options.walls, options.contact.friction);
+            walls = made.get();
+            contacts.push_back(std::move(made));
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
@@ -196,11 +198,11 @@ Case build_case(CaseOptions options) {
                 "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
     if (!cracks && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
         built.warnings.push_back("material.strength: has no effect without fracture.method");
-    if (options.run.event_tolerance > 0 && !extrinsic)
+    const bool searches = options.run.event_tolerance > 0;
+    if (searches && !extrinsic && contact == nullptr)
         built.warnings.push_back(
-            "run.event_tolerance: has no effect without fracture.method = extrinsic: only sides that open at their "
-            "strength are "
-            "searched for");
+            "run.event_tolerance: has no effect without fracture.method = extrinsic or contact: what is searched for "
+            "are sides that open at their strength, and bodies that touch or part");
     if (built.integrator->is_static())
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     Joints* const cohesion = cracks ? static_cast<Joints*>(parts.interactions.front().get()) : nullptr;
@@ -216,13 +218,18 @@ Case build_case(CaseOptions options) {
                                           .loads_everywhere = std::ranges::any_of(options.loads, [](const auto& load) {
                                               return load.kind == LoadOptions::Kind::body_force;
                                           })};
-        if (in_contact != nullptr)
-            parts_of_cracking.come_apart = [in_contact](std::span<const std::int32_t> sides) {
-                return in_contact->come_apart(sides);
+        if (contact != nullptr)
+            parts_of_cracking.come_apart = [&bodies = contact->bodies()](std::span<const std::int32_t> sides) {
+                return bodies.come_apart(sides);
             };
         auto cracking = std::make_unique<Cracking>(std::move(parts_of_cracking));
         built.cracking = cracking.get();
         built.system->add_event(std::move(cracking));
+    }
+    if (searches && contact != nullptr) {
+        auto touches = std::make_unique<Touches>(*contact, walls);
+        built.touches = touches.get();
+        built.system->add_event(std::move(touches));
     }
     built.layout = layout_fingerprint(*built.mesh, *built.system);
     built.reactions = ReactionTable(*built.mesh, options.boundaries, built.system->constraints());

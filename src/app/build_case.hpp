@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/tables.hpp"
+#include "contact/touches.hpp"
 #include "fracture/cracking.hpp"
 #include "mesh/mesh.hpp"
 #include "model/options.hpp"
@@ -21,6 +22,7 @@ struct Case {
     std::vector<std::string> warnings;                      ///< "mesh: …"
     std::unique_ptr<SolidSystem> system;
     Cracking* cracking = nullptr;  ///< one of the system's events; null: nothing cracks
+    Touches* touches = nullptr;    ///< one of the system's events; null: nobody asks when bodies touch
     std::string layout;            ///< fingerprint of mesh and blocks at the start: what z and history are ordered by
     std::unique_ptr<Integrator> integrator;
     ProbeTable probes;

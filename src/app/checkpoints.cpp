@@ -34,6 +34,7 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
     checkpoint.set("step", static_cast<std::int64_t>(progress.step));
     checkpoint.set("initial_energy", progress.initial_energy);
     if (built.cracking != nullptr) checkpoint.set("cracks", built.cracking->save());
+    if (built.touches != nullptr) checkpoint.set("touches", built.touches->save());
     checkpoint.set("state.t", state.t);
     checkpoint.set("state.last_event", state.last_event);
     checkpoint.set("state.u", state.u);
@@ -60,6 +61,7 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
                          fmt::format("was written by integrator `{}`, the deck has `{}`",
                                      checkpoint.get<std::string>("integrator"), built.integrator->name()));
     if (built.cracking != nullptr) built.cracking->replay(checkpoint.get<Vector>("cracks"));
+    if (built.touches != nullptr) built.touches->load(checkpoint.get<Vector>("touches"));
     const Layout layout = built.system->layout();
     progress.step = static_cast<std::size_t>(checkpoint.get<std::int64_t>("step"));
     progress.initial_energy = checkpoint.get<double>("initial_energy");

@@ -28,6 +28,13 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
                                     {"largest_overshoot", built.cracking->largest_overshoot()}};
         if (const auto first = built.cracking->first_opening()) summary.groups["cracks"]["first_opening_s"] = *first;
     }
+    if (built.touches != nullptr) {
+        const Touches::Record& record = built.touches->record();
+        auto& group = summary.groups["touches"];
+        group = {{"touched", record.n_touched}, {"parted", record.n_parted}};
+        if (record.first_touch) group["first_touch_s"] = *record.first_touch;
+        if (record.last_parting) group["last_parting_s"] = *record.last_parting;
+    }
     summary.groups["time"] = {{"t_s", now.state.t}, {"t_end_s", built.options.run.t_end}, {"last_dt_s", now.last_dt}};
 
     const double stepping = now.wall_time - now.setup_time;

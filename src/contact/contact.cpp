@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "mesh/geometry.hpp"
 
 namespace gneiss {
 namespace {
@@ -98,10 +99,13 @@ double Contact::largest_motion(std::span<const double> u) const {
 
 bool Contact::look(const State& accepted) {
     const auto u = bonded(accepted.u);
-    const double moved = largest_motion(u), step = moved - moved_;
+    const double moved = largest_motion(u), way = std::max(0.0, moved - moved_), dt = accepted.t - looked_at_;
     moved_ = moved;
-    // The next step may go as far as the last one, or a little further.
-    if (moved + 2 * std::max(step, 0.0) <= 0.5 * options_.skin) return false;
+    looked_at_ = accepted.t;
+    longest_dt_ = std::max(longest_dt_, dt);
+    // The next step may be as long as any before it, and go a little further.
+    const double next = dt > 0 ? way * (longest_dt_ / dt) : way;
+    if (moved + 2 * next <= 0.5 * options_.skin) return false;
     std::ranges::copy(u.first(searched_.size()), searched_.begin());
     const std::vector<ContactCandidate> before = candidates_.pairs;
     search();
@@ -311,6 +315,29 @@ std::vector<ContactOverlap> Contact::overlaps(std::span<const double> u, double 
                            response.depth});
     }
     return all;
+}
+
+Gaps Contact::gaps(std::span<const double> u) const {
+    find_hits(bonded(u));
+    Gaps gaps;
+    auto hit = hits_.begin();
+    for (std::size_t candidate = 0; candidate < candidates_.pairs.size(); ++candidate) {
+        const bool inside = hit != hits_.end() && index(*hit) == candidate;
+        if (inside) ++hit;
+        const ContactCandidate& pair = candidates_.pairs[candidate];
+        const auto nodes = nodes_of(pair);
+        const std::int32_t one = bodies_.body_of_node(nodes[0]), other = bodies_.body_of_node(nodes[2]);
+        if (one == other) continue;
+        const auto at = [](const std::vector<double>& x, std::int32_t i) {
+            return Point2{x[2 * index(i)], x[2 * index(i) + 1]};
+        };
+        const double gap = inside ? -alone(pair, 1.0).depth
+                                  : distance_to_triangle(at(point_x_, pair.point), at(x_, nodes[2]), at(x_, nodes[3]),
+                                                         at(x_, nodes[4]));
+        const auto [found, first] = gaps.try_emplace(std::minmax(one, other), gap);
+        if (!first) found->second = std::min(found->second, gap);
+    }
+    return gaps;
 }
 
 }  // namespace gneiss

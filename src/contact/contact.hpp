@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/cell_search.hpp"
@@ -23,6 +25,11 @@ struct ContactOverlap {
     std::array<double, 2> at;       ///< m
     double depth;                   ///< m
 };
+
+/// Two of the bodies that a mesh has at the start, the lower number first; or a wall, -1 - its number, and a body.
+using Touching = std::pair<std::int32_t, std::int32_t>;
+/// How far they are apart, m; below zero: how deep a point of one is in the other, or in the wall, at most.
+using Gaps = std::map<Touching, double>;
 
 /// Deeper than this part of the shortest edge is no rounding of positions.
 inline constexpr double overlap_tolerance = 1e-6;
@@ -73,6 +80,9 @@ public:
     /// Points that are deeper than `tolerance` (m) inside a body, by ascending point.
     /// @param u  m, shape (2 n_mesh_nodes)
     std::vector<ContactOverlap> overlaps(std::span<const double> u, double tolerance) const;
+    /// Of all pairs of bodies that the last search has found near each other.
+    /// @param u  m, shape (2 n_mesh_nodes)
+    Gaps gaps(std::span<const double> u) const;
     const ContactBodies& bodies() const { return bodies_; }
     const Options& options() const { return options_; }
     // What the last evaluation met, and how often pairs were searched: for reports.
@@ -121,6 +131,7 @@ private:
     std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
     std::size_t n_searches_ = 0;
     double moved_ = 0;                                 ///< largest way of a node since then, at the last look, m
+    double looked_at_ = 0, longest_dt_ = 0;            ///< time of the last look, longest step so far, s
     std::vector<TargetConstants> targets_;             ///< by triangle
     std::vector<PointConstants> points_;               ///< by contactor point
     mutable std::vector<std::size_t> first_coupling_;  ///< of each candidate, in couplings()

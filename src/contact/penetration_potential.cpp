@@ -12,13 +12,6 @@ namespace {
 /// found by walking where it is within the caps on the way.
 constexpr double cap_growth = 0.5;
 
-double distance_to_edge(const Point2& p, const Point2& a, const Point2& b) {
-    const double ex = b[0] - a[0], ey = b[1] - a[1];
-    const double along = ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey);
-    const double t = std::clamp(along, 0.0, 1.0);
-    return distance(p, {a[0] + t * ex, a[1] + t * ey});
-}
-
 }  // namespace
 
 PenetrationPotential::PenetrationPotential(std::vector<Point2> nodes,

@@ -231,6 +231,20 @@ void Walls::add_dissipated(std::span<const double> from, std::span<const double>
     energies.support_work += to[2] - from[2];
 }
 
+Gaps Walls::gaps(double t, std::span<const double> u) const {
+    Gaps gaps;
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+        const Vec2<double> p = walls_[w].point + t * walls_[w].velocity;
+        for (std::size_t point = 0; point < points_.size(); ++point) {
+            const double gap = dot(position(point, u) - p, walls_[w].normal);
+            const std::int32_t body = contact_.bodies().body_of_mesh_node(points_.a[point]);
+            const auto [found, first] = gaps.try_emplace({-1 - static_cast<std::int32_t>(w), body}, gap);
+            if (!first) found->second = std::min(found->second, gap);
+        }
+    }
+    return gaps;
+}
+
 double Walls::deepest_at_rest() const {
     const std::vector<double> at_rest(2 * contact_.bodies().n_mesh_nodes(), 0.0);
     double deepest = -std::numeric_limits<double>::infinity();

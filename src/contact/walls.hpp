@@ -49,6 +49,9 @@ public:
     void add_dissipated(std::span<const double> from, std::span<const double> to,
                         PathEnergies& energies) const override;
 
+    /// Of every wall and every body.
+    /// @param u  m, shape (2 n_mesh_nodes)
+    Gaps gaps(double t, std::span<const double> u) const;
     /// How deep a point of the boundary is in one of the walls at most in the reference shape, m; <= 0: in none.
     double deepest_at_rest() const;
 

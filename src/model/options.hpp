@@ -247,7 +247,7 @@ struct RunOptions {
     double t_end = 0;            ///< s, > 0
     double checkpoint = 0;       ///< interval of simulated time between checkpoints, s; 0: only at the end
     double mass_damping = 0;     ///< C = c M, 1/s, >= 0
-    double event_tolerance = 0;  ///< how well instants are known at which sides reach their strength, s; 0: to a step
+    double event_tolerance = 0;  ///< how well instants are known at which sides open or bodies meet, s; 0: to a step
 };
 
 struct ProbeOptions {

@@ -218,8 +218,8 @@ const Section<RunOptions>& run_section() {
          number("event_tolerance", &R::event_tolerance,
                 {.unit = "s",
                  .range = at_least(0),
-                 .meaning = "steps in which a side reaches its strength are taken again, shorter, until the instant is "
-                            "known to this; 0: sides open at the end of the step"})}};
+                 .meaning = "steps in which a side reaches its strength, or two bodies touch or part, are taken again, "
+                            "shorter, until the instant is known to this; 0: sides open at the end of the step"})}};
     return section;
 }
 

@@ -124,6 +124,44 @@ TEST_F(ProgramContact, ThreadsAndRestarts_DoNotMoveABit) {
     EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
 }
 
+TEST_F(ProgramContact, EventTolerance_FirstTouchAtGapOverSpeed_UnderEveryScheme) {
+    const double exact = 1e-5, tolerance = 1e-10;
+    const auto touches = [&](const std::string& integrator, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> set{"--set", "integrator={ " + integrator + " }", "run.event_tolerance=1e-10",
+                                     "run.t_end=3e-5"};
+        set.insert(set.end(), more.begin(), more.end());
+        energies(set, "out");
+        return summary("out").at("touches");
+    };
+    const std::vector<std::string> conservative{"contact={ method = \"potential\", friction = 0 }"};
+    for (const char* integrator :
+         {R"(type = "central_difference")", R"(type = "noh_bathe")", R"(type = "generalized_alpha", dt = 2e-6)",
+          R"(type = "newmark", dt = 2e-6)", R"(type = "hht_alpha", dt = 2e-6)", R"(type = "bathe", dt = 2e-6)",
+          R"(type = "cvode", rtol = 1e-5)", R"(type = "arkode", rtol = 1e-5)", R"(type = "ida", rtol = 1e-5)"}) {
+        const double late = touches(integrator).at("first_touch_s").get<double>() - exact;
+        EXPECT_GE(late, -1e-15) << integrator;  // rounding of positions of 0.04 m
+        EXPECT_LE(late, tolerance) << integrator;
+    }
+    const auto verlet = touches(R"(type = "verlet", composition = "suzuki_5")", conservative);
+    EXPECT_NEAR(verlet.at("first_touch_s").get<double>(), exact + 0.5 * tolerance, 0.5 * tolerance + 1e-15);
+    EXPECT_GT(touches("type = \"generalized_alpha\", dt = 3e-6", {"run.event_tolerance=1e-6"})
+                      .at("first_touch_s")
+                      .get<double>() -
+                  exact,
+              2 * tolerance)
+        << "no better than what is asked for";
+}
+
+TEST_F(ProgramContact, EventTolerance_RestartedInTouch_TellsTheSame) {
+    const std::vector<std::string> searched{"--set", "run.event_tolerance=1e-10"};
+    energies(searched, "one");
+    energies({"--set", "run.event_tolerance=1e-10", "run.t_end=1e-4"}, "parts");
+    energies({"--set", "run.event_tolerance=1e-10", "--restart", "parts/checkpoint.h5"}, "parts");
+    EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
+    EXPECT_EQ(summary("parts").at("touches"), summary("one").at("touches"));
+    EXPECT_EQ(summary("one").at("touches").at("touched"), 1);
+}
+
 TEST_F(ProgramContact, WithJoints_BondedEdgesAreNotInTouch) {
     const nlohmann::json found = energies({"--set", "fracture.method=intrinsic"}, "out");
     EXPECT_GT(found["dissipated_friction"], 0);
