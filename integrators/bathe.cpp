@@ -58,12 +58,7 @@ void Bathe::start(const SemiDiscrete& system, State& state, StartReason why) {
     system.force(state, Trial::of(state), f_);
     ++newton_.counts().evaluations;
     motion_.reactions(system, state.v, f_, reactions_);
-    subtract_damping(system, state.v, f_);
-    const auto mass = system.lumped_mass();
-    for (std::size_t i = 0; i < a_.size(); ++i) a_[i] = f_[i] / mass[i];
-    const auto constraints = system.constraints();
-    const auto supports = motion_.acceleration(system);
-    for (std::size_t k = 0; k < constraints.size(); ++k) a_[constraints[k].dof] = supports[k];
+    motion_.accelerations(system, state.v, f_, a_);
 }
 
 StepReport Bathe::advance(const SemiDiscrete& system, State& state, double t_stop) {
@@ -135,9 +130,7 @@ void Bathe::solve(const SemiDiscrete& system, const State& from, State& to, doub
     };
     motion_.evaluate(system, to.t);
     motion_.put(system, to.u, to.v);
-    const auto constraints = system.constraints();
-    const auto supports = motion_.acceleration(system);
-    for (std::size_t k = 0; k < constraints.size(); ++k) a[constraints[k].dof] = supports[k];
+    motion_.put_acceleration(system, a);
     place();
     newton_.solve(system, from,
                   {.at = to,
@@ -157,11 +150,7 @@ void Bathe::accept(const SemiDiscrete& system, const State& from, State& to) {
     system.add_path_energies(from, to);
     reactions_before_.swap(reactions_new_);
     motion_.reactions(system, to.v, f_, reactions_new_);
-    const auto constraints = system.constraints();
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const std::size_t dof = constraints[k].dof;
-        to.path.support_work += 0.5 * (reactions_before_[k] + reactions_new_[k]) * (to.u[dof] - from.u[dof]);
-    }
+    add_support_work(system, reactions_before_, reactions_new_, from, to);
 }
 
 double Bathe::kinetic_energy(const SemiDiscrete& system, const State& state) const {

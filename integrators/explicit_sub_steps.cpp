@@ -106,11 +106,7 @@ void ExplicitSubSteps::sub_step(const SemiDiscrete& system, const State& from, d
     system.add_path_energies(from, to);
     reactions_before_.swap(reactions_new_);
     motion_.reactions(system, to.v, f_, reactions_new_);
-    const auto constraints = system.constraints();
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const std::size_t dof = constraints[k].dof;
-        to.path.support_work += 0.5 * (reactions_before_[k] + reactions_new_[k]) * (to.u[dof] - from.u[dof]);
-    }
+    add_support_work(system, reactions_before_, reactions_new_, from, to);
 }
 
 void ExplicitSubSteps::subtract_damping_rate(const SemiDiscrete& system, double w, std::span<const double> v,

@@ -95,12 +95,7 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
     system.force(state, Trial::of(state), f_);
     ++newton_.counts().evaluations;
     motion_.reactions(system, state.v, f_, reactions_);
-    subtract_damping(system, state.v, f_);
-    const auto mass = system.lumped_mass();
-    for (std::size_t i = 0; i < a_.size(); ++i) a_[i] = f_[i] / mass[i];
-    const auto constraints = system.constraints();
-    const auto supports = motion_.acceleration(system);
-    for (std::size_t k = 0; k < constraints.size(); ++k) a_[constraints[k].dof] = supports[k];
+    motion_.accelerations(system, state.v, f_, a_);
 }
 
 StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, double t_stop) {

@@ -163,4 +163,27 @@ void PrescribedMotion::reactions(const SemiDiscrete& system, std::span<const dou
     }
 }
 
+void PrescribedMotion::accelerations(const SemiDiscrete& system, std::span<const double> v, std::span<double> f,
+                                     std::span<double> a) {
+    subtract_damping(system, v, f);
+    const auto mass = system.lumped_mass();
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = f[i] / mass[i];
+    put_acceleration(system, a);
+}
+
+void PrescribedMotion::put_acceleration(const SemiDiscrete& system, std::span<double> a) {
+    const auto constraints = system.constraints();
+    const auto supports = acceleration(system);
+    for (std::size_t k = 0; k < constraints.size(); ++k) a[constraints[k].dof] = supports[k];
+}
+
+void add_support_work(const SemiDiscrete& system, std::span<const double> before, std::span<const double> after,
+                      const State& from, State& to) {
+    const auto constraints = system.constraints();
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const std::size_t dof = constraints[k].dof;
+        to.path.support_work += 0.5 * (before[k] + after[k]) * (to.u[dof] - from.u[dof]);
+    }
+}
+
 }  // namespace gneiss

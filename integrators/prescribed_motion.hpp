@@ -20,6 +20,11 @@ namespace gneiss {
 void add_travel(const SemiDiscrete& system, double t0, double t, double last_event, std::span<double> scratch,
                 std::span<double> u);
 
+/// Adds to to.path the work of supports along a step, by the trapezoidal rule.
+/// @param before, after  reactions at its two ends, N, shape (constraints)
+void add_support_work(const SemiDiscrete& system, std::span<const double> before, std::span<const double> after,
+                      const State& from, State& to);
+
 class PrescribedMotion {
 public:
     /// @param omega  upper bound of the natural frequencies, rad/s
@@ -45,6 +50,14 @@ public:
     /// @param[out] reactions  shape (constraints)
     void reactions(const SemiDiscrete& system, std::span<const double> v, std::span<const double> f,
                    std::span<double> reactions);
+
+    /// Accelerations M^-1 (f - C v), m/s2, and those of the supports where they are, in a state of which the motion has
+    /// been evaluated.
+    /// @param[in,out] f  N, without C v, which is subtracted
+    /// @param[out] a     shape of f
+    void accelerations(const SemiDiscrete& system, std::span<const double> v, std::span<double> f, std::span<double> a);
+    /// Writes the supports' accelerations into the vector of all degrees of freedom.
+    void put_acceleration(const SemiDiscrete& system, std::span<double> a);
 
 private:
     static constexpr std::size_t n_points = 5;

@@ -31,11 +31,7 @@ void SundialsOde::check(int flag, const char* call) {
 
 void SundialsOde::allocate(const SemiDiscrete& system) {
     destroy();
-    if (newton_) {
-        counts_.linearisations += newton_->counts().linearisations;
-        counts_.factorisations += newton_->counts().factorisations;
-        counts_.solves += newton_->counts().solves;
-    }
+    if (newton_) counts_.add(newton_->counts());
     newton_.reset();
     form_.bind(system, omega_);
     if (needs_newton_) newton_ = std::make_unique<NewtonSystem>(system, form_, options_.solver, context_);
@@ -187,11 +183,7 @@ void SundialsOde::forget(const SemiDiscrete& system, State& state) { start(syste
 SundialsOde::Counts SundialsOde::counts() const {
     Counts counts = counts_;
     counts.rejected += failed_before_;
-    if (newton_) {
-        counts.linearisations += newton_->counts().linearisations;
-        counts.factorisations += newton_->counts().factorisations;
-        counts.solves += newton_->counts().solves;
-    }
+    if (newton_) counts.add(newton_->counts());
     return counts;
 }
 

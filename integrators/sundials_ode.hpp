@@ -30,6 +30,12 @@ public:
     struct Counts {
         std::size_t steps = 0, rates = 0, rejected = 0;
         std::size_t linearisations = 0, factorisations = 0, solves = 0;
+
+        void add(const NewtonSystem::Counts& more) {
+            linearisations += more.linearisations;
+            factorisations += more.factorisations;
+            solves += more.solves;
+        }
     };
 
     void start(const SemiDiscrete& system, State& state, StartReason why) final;

@@ -51,10 +51,6 @@ std::string folder_name(const std::string& scheme, const std::string& setting) {
     return name;
 }
 
-std::string title_of(const ComparisonDecks::Run& run) {
-    return run.setting.empty() ? run.scheme : fmt::format("{}, {}", run.scheme, run.setting);
-}
-
 double seconds(const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
@@ -109,7 +105,7 @@ public:
                     arguments.deck.string(),
                     fmt::format("[compare]: the run \"{}\" would have the folder \"{}\", which is none or that "
                                 "of another run: give its scheme another name",
-                                title_of(run), name));
+                                run_title(run.scheme, run.setting), name));
     }
 
     int carry_out_all();
@@ -139,7 +135,8 @@ ComparedRun Comparison::carry_out_one(std::size_t number) {
                                      {"threads", arguments_.threads}};
     const auto announce = [&](const char* what) {
         if (!arguments_.quiet)
-            fmt::print(stderr, "[{}/{}] {}{}\n", number + 1, decks_.runs.size(), title_of(run), what);
+            fmt::print(stderr, "[{}/{}] {}{}\n", number + 1, decks_.runs.size(), run_title(run.scheme, run.setting),
+                       what);
     };
     RunCost cost;
     int ended_with = exit_code::done;

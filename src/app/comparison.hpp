@@ -1,6 +1,8 @@
 #pragma once
 // What a comparison of schemes finds out about each run: how far it is from the reference, what it cost.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,6 +32,11 @@ struct RunHistory {
     std::vector<double> t, dt, balance_error;  ///< s, s, 1
 };
 
+/// "cvode bdf, rtol = 1e-06".
+inline std::string run_title(const std::string& scheme, const std::string& setting) {
+    return setting.empty() ? scheme : fmt::format("{}, {}", scheme, setting);
+}
+
 struct ComparedRun {
     std::string scheme, setting;
     std::filesystem::path folder;
@@ -44,7 +51,7 @@ struct ComparedRun {
     RunHistory history;
 
     bool done() const { return status == name_of(RunStatus::done); }
-    std::string title() const { return setting.empty() ? scheme : scheme + ", " + setting; }
+    std::string title() const { return run_title(scheme, setting); }
 };
 
 /// Reads what a run has left in its folder; without errors.

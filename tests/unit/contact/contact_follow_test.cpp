@@ -142,6 +142,18 @@ protected:
     }();
     /// Joints opened and closed by up to 0.4 mm.
     State state = displaced(mesh.n_nodes(), 2e-4, 7);
+
+    static Contact::Options coming_apart() {
+        Contact::Options options = rough();
+        options.comes_apart = true;
+        return options;
+    }
+    /// The history that contact has in this state when nothing has been before.
+    std::vector<double> touched(const Contact& contact) const {
+        std::vector<double> history(contact.n_history());
+        contact.initial_history(history);
+        return evaluate(contact, state, history).history;
+    }
 };
 INSTANTIATE_TEST_SUITE_P(Elements, Bonded, testing::Bool(),
                          [](const auto& instance) { return std::string(instance.param ? "Compt" : "Cst"); });
@@ -172,9 +184,7 @@ TEST_P(Bonded, Tangent_IsThatOfDifferences) {
     Contact::Options elastic = rough();
     elastic.restitution = 1;  // otherwise the force has a kink where it is now
     const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, elastic);
-    std::vector<double> history(contact.n_history());
-    contact.initial_history(history);
-    history = evaluate(contact, state, history).history;
+    const std::vector<double> history = touched(contact);
     const auto couplings = contact.couplings();
     std::vector<ForceTerm::Stiffness> blocks(couplings.size());
     contact.stiffness(Trial::of(state), history, blocks);
@@ -203,12 +213,8 @@ TEST_P(Bonded, Tangent_IsThatOfDifferences) {
 }
 
 TEST_P(Bonded, WhatOverlapsAsItFails_IsNotPushedApart) {
-    Contact::Options options = rough();
-    options.comes_apart = true;
-    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, options);
-    std::vector<double> history(contact.n_history());
-    contact.initial_history(history);
-    history = evaluate(contact, state, history).history;
+    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, coming_apart());
+    std::vector<double> history = touched(contact);
     const double before = stored(contact, state, history);
     ASSERT_GT(before, 0);
     PathEnergies energies;
@@ -229,12 +235,8 @@ TEST_P(Bonded, WhatOverlapsAsItFails_IsNotPushedApart) {
 
 TEST_P(Bonded, WhatFailsElsewhere_ChangesNoForce_AndNothingIsBookedTwice) {
     // sides of the upper body that do not come near the lower one
-    Contact::Options options = rough();
-    options.comes_apart = true;
-    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, options);
-    std::vector<double> history(contact.n_history());
-    contact.initial_history(history);
-    history = evaluate(contact, state, history).history;
+    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, coming_apart());
+    std::vector<double> history = touched(contact);
     for (double& u : state.u) u *= 1.05;  // springs are drawn
     const Evaluation before = evaluate(contact, state, history);
     history = before.history;

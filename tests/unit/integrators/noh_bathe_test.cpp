@@ -49,25 +49,10 @@ TEST(NohBathe, HighFrequencies_AreDampedAndLowOnesAreNot) {
 }
 
 TEST(NohBathe, DampedInAnyWay_AtTheCriticalStep_StaysBounded) {
+    // just below the limit the amplitude may be larger than at the start, by about (1 - 0.999^2)^-1/2
     for (const double split : splits) {
-        for (const double rate : {0.0, 0.2, 1.0, 4.0, 20.0}) {
-            for (int kind = 0; kind < 3; ++kind) {
-                test::OscillatorModel model;
-                model.mass = test::Vector{{2, 2}};
-                model.stiffness = 2 * test::Matrix{{9, 0}, {0, 1}};
-                model.initial_u = test::Vector{{1, 0.3}};
-                if (kind == 0) model.viscosity = 2 * rate * test::Matrix::Identity(2, 2);
-                if (kind == 1) model.damping.mass_proportional = rate;
-                if (kind == 2) model.damping.blocks = {{0, 2 * rate, 0.5 * rate, rate}};
-                const test::Oscillator system(model);
-                NohBathe integrator({{.safety = 0.999}, split});
-                State state = system.initial_state();
-                integrator.start(system, state, StartReason::fresh);
-                for (int step = 0; step < 4000; ++step) integrator.advance(system, state, state.t + 100);
-                // just below the limit the amplitude may be larger than at the start, by about (1 - 0.999^2)^-1/2
-                EXPECT_LT(std::abs(state.u[0]) + std::abs(state.u[1]), 30) << split << " " << rate << " " << kind;
-            }
-        }
+        const auto make = [split] { return std::make_unique<NohBathe>(NohBathe::Options{{.safety = 0.999}, split}); };
+        EXPECT_LT(test::largest_under_damping(make), 30) << split;
     }
 }
 
