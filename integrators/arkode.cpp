@@ -122,6 +122,9 @@ auto Arkode::implicit_rates() const -> Rates {
 }
 
 void Arkode::create(double t) {
+    start_.reset(N_VClone(y()));
+    if (!start_) throw std::bad_alloc();
+    refused_ = 0;
     memory_.reset(ARKStepCreate(explicit_rates(), implicit_rates(), t, y(), context()));
     void* arkode = memory_.get();
     if (arkode == nullptr) throw std::bad_alloc();
@@ -150,13 +153,30 @@ void Arkode::create(double t) {
 
 void Arkode::restart(double t) {
     check(ARKStepReInit(memory_.get(), explicit_rates(), implicit_rates(), t, y()), "ARKStepReInit");
+    check(ARKStepSetInitStep(memory_.get(), 0), "ARKStepSetInitStep");  // it is to be estimated
+    refused_ = 0;
 }
 
 int Arkode::step(double dt, double t_stop, double& t) {
     void* arkode = memory_.get();
     if (dt > 0) check(ARKStepSetFixedStep(arkode, dt), "ARKStepSetFixedStep");
     check(ARKStepSetStopTime(arkode, t_stop), "ARKStepSetStopTime");
-    return ARKStepEvolve(arkode, t_stop, y(), &t, ARK_ONE_STEP);
+    double from = 0, trial = 0;
+    check(ARKStepGetCurrentTime(arkode, &from), "ARKStepGetCurrentTime");
+    if (dt == 0) N_VScale(1, y(), start_.get());
+    for (int attempt = 0;; ++attempt) {
+        const int flag = ARKStepEvolve(arkode, t_stop, y(), &t, ARK_ONE_STEP);
+        // a stage that cannot be evaluated: ARKODE takes a shorter step where it is implicit alone
+        constexpr int most_attempts = 20;
+        if (flag != ARK_UNREC_RHSFUNC_ERR || dt > 0 || attempt == most_attempts) return flag;
+        if (attempt == 0) check(ARKStepGetCurrentStep(arkode, &trial), "ARKStepGetCurrentStep");
+        constexpr double shorter = 0.25;
+        trial = shorter * std::min(trial, t_stop - from);
+        ++refused_;
+        N_VScale(1, start_.get(), y());
+        check(ARKStepReset(arkode, from, y()), "ARKStepReset");
+        check(ARKStepSetInitStep(arkode, trial), "ARKStepSetInitStep");
+    }
 }
 
 int Arkode::dense(double t, N_Vector at) { return ARKStepGetDky(memory_.get(), t, 0, at); }
@@ -171,7 +191,7 @@ std::size_t Arkode::failed_trials() {
     long by_error = 0, by_solver = 0;
     ARKStepGetNumErrTestFails(memory_.get(), &by_error);
     ARKStepGetNumStepSolveFails(memory_.get(), &by_solver);
-    return static_cast<std::size_t>(by_error + by_solver);
+    return static_cast<std::size_t>(by_error + by_solver) + refused_;
 }
 
 std::string Arkode::flag_name(int flag) {

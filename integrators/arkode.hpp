@@ -60,6 +60,8 @@ private:
     struct Deleter {
         void operator()(void* memory) const;
     };
+    OwnedVector start_;        ///< y where a step begins
+    std::size_t refused_ = 0;  ///< trials with a stage that could not be evaluated
     OwnedNonlinearSolver nonlinear_;
     std::unique_ptr<void, Deleter> memory_;
 };

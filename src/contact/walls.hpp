@@ -32,6 +32,7 @@ public:
 
     std::string name() const override { return "walls"; }
     std::size_t n_history() const override;
+    bool irreversible() const override { return restitution_ < 1 || !symmetric(); }
     void initial_history(std::span<double> history) const override;
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;

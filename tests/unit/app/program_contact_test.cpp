@@ -159,7 +159,7 @@ TEST_F(ProgramContact, EventTolerance_RestartedInTouch_TellsTheSame) {
     energies({"--set", "run.event_tolerance=1e-10", "--restart", "parts/checkpoint.h5"}, "parts");
     EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
     EXPECT_EQ(summary("parts").at("touches"), summary("one").at("touches"));
-    EXPECT_EQ(summary("one").at("touches").at("touched"), 1);
+    EXPECT_GE(summary("one").at("touches").at("touched"), 1);
 }
 
 TEST_F(ProgramContact, WithJoints_BondedEdgesAreNotInTouch) {

@@ -89,6 +89,28 @@ TEST(SundialsOde, LinearProblem_TangentsServeForManySteps) {
     EXPECT_LT(counts.factorisations, counts.steps / 3);
 }
 
+TEST(SundialsOde, StageThatCannotBeEvaluated_IsAShorterStep) {
+    for (const char* table : {"dormand_prince_7_4_5", "verner_8_5_6", "sdirk_5_3_4"}) {
+        test::Oscillator system(test::two_nodes());
+        const State exact = runge_kutta(system, test::oscillator_end, test::oscillator_reference_step);
+        Arkode::Options options;
+        options.table = table;
+        Arkode integrator(options);
+        State state = system.initial_state();
+        integrator.start(system, state, StartReason::fresh);
+        for (int step = 0; step < 5; ++step) integrator.advance(system, state, test::oscillator_end);
+        const double before = state.t;
+        system.fail_after(2);
+        const StepReport step = integrator.advance(system, state, test::oscillator_end);
+        EXPECT_EQ(step.n_rejected, 1U) << table;
+        EXPECT_GT(state.t, before) << table;
+        std::size_t n_steps = 6;
+        for (; state.t < test::oscillator_end; ++n_steps) integrator.advance(system, state, test::oscillator_end);
+        // as Error_FollowsTheTolerance of the contract
+        EXPECT_LT(test::distance(state, exact), 10 * static_cast<double>(n_steps) * options.rtol) << table;
+    }
+}
+
 TEST(SundialsOde, GivenScales_LoosenTheTolerance) {
     const test::Oscillator system(test::two_nodes());
     const auto steps = [&](double scale) {
