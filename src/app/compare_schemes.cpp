@@ -1,5 +1,6 @@
 #include "app/compare_schemes.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -14,11 +15,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "app/comparison.hpp"
 #include "app/comparison_report.hpp"
+#include "app/make_integrator.hpp"
 #include "base/errors.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/atomic_file.hpp"
@@ -61,15 +64,40 @@ struct Ended {
     RunCost cost;
 };
 
+/// Where the messages of a process go.
+class Messages {
+public:
+    /// @param file  empty: where those of this one go
+    explicit Messages(const fs::path& file) {
+        if (const int error = posix_spawn_file_actions_init(&actions_); error != 0) throw std::bad_alloc();
+        constexpr mode_t readable = 0644;
+        if (!file.empty() && posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, file.c_str(),
+                                                              O_WRONLY | O_CREAT | O_TRUNC, readable) != 0)
+            throw std::bad_alloc();
+    }
+    Messages(const Messages&) = delete;
+    Messages& operator=(const Messages&) = delete;
+    ~Messages() { posix_spawn_file_actions_destroy(&actions_); }
+
+    const posix_spawn_file_actions_t* actions() const { return &actions_; }
+
+private:
+    posix_spawn_file_actions_t actions_;
+};
+
 /// Runs a program to its end. A stop that is asked for is handed on.
-Ended carry_out(const fs::path& program, const std::vector<std::string>& arguments, const StopRequest& stop) {
+/// @param messages  file for what it says; empty: that is seen
+Ended carry_out(const fs::path& program, const std::vector<std::string>& arguments, const StopRequest& stop,
+                const fs::path& messages = {}) {
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     pid_t process = 0;
-    if (const int error = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
+    const Messages destination(messages);
+    if (const int error =
+            posix_spawn(&process, program.c_str(), destination.actions(), nullptr, pointers.data(), environ);
         error != 0)
         throw IoError(program, std::generic_category().message(error));
     int status = 0;
@@ -97,6 +125,7 @@ public:
             arguments.out.empty() ? fs::path("results") / (arguments.deck.stem().string() + "-compare") : arguments.out;
         if (decks_.options.mesh.source == MeshOptions::Source::file)
             mesh_fingerprint_ = fingerprint_text(read_file(decks_.options.mesh.file));
+        check_schemes();
         std::set<std::string> names;
         for (const auto& run : decks_.runs)
             if (const std::string name = folder_name(run.scheme, run.setting);
@@ -111,7 +140,9 @@ public:
     int carry_out_all();
 
 private:
+    void check_schemes() const;
     ComparedRun carry_out_one(std::size_t number);
+    std::string why_refused(const fs::path& deck) const;
     void measure(std::vector<ComparedRun>& runs) const;
     std::string reference_text() const;
     void write(const std::vector<ComparedRun>& runs) const;
@@ -123,6 +154,33 @@ private:
     fs::path out_;
     StopRequest stop_;
 };
+
+/// Options that no scheme would take are found before the first run.
+void Comparison::check_schemes() const {
+    std::vector<Problem> problems;
+    for (const ComparisonDecks::Run& run : decks_.runs) try {
+            make_integrator(parse_deck(run.deck, arguments_.deck.string()).integrator);
+        } catch (const InputError& error) {
+            for (const Problem& problem : error.problems())
+                problems.push_back({fmt::format("[compare] {}: {}", run_title(run.scheme, run.setting), problem.where),
+                                    problem.message});
+        }
+    if (!problems.empty()) throw InputError(problems);
+}
+
+/// What the program says of a deck that it does not run, in one line.
+std::string Comparison::why_refused(const fs::path& deck) const {
+    const fs::path folder = deck.parent_path(), messages = folder / "refusal.txt";
+    carry_out(program_, {"run", deck.string(), "--out", folder.string(), "--quiet"}, stop_, messages);
+    std::istringstream lines(read_file(messages));
+    std::string text, line;
+    while (std::getline(lines, line)) {
+        if (line.find_first_not_of(' ') == std::string::npos) continue;
+        if (!text.empty()) text += "; ";
+        text += line.substr(line.find_first_not_of(' '));
+    }
+    return text;
+}
 
 ComparedRun Comparison::carry_out_one(std::size_t number) {
     const ComparisonDecks::Run& run = decks_.runs[number];
@@ -167,8 +225,7 @@ ComparedRun Comparison::carry_out_one(std::size_t number) {
                                             '\n');
     }
     ComparedRun result = read_run(folder);
-    if (result.status == "refused")
-        result.message = fmt::format("it did not begin: gneiss run {} says why", deck.string());
+    if (result.status == "refused") result.message = why_refused(deck);
     if (result.status == name_of(RunStatus::running)) {
         result.status = name_of(RunStatus::failed);
         result.message = fmt::format("the process ended without a word, exit code {}: out of memory?", ended_with);

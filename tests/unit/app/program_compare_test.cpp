@@ -100,6 +100,28 @@ TEST_F(ProgramCompare, ARunThatFails_SaysWhy_TheOthersGoOn) {
     EXPECT_THAT(ended.out, HasSubstr("failed: the fixed step"));
 }
 
+TEST_F(ProgramCompare, ASchemeThatTheCaseRefuses_SaysWhy_TheOthersGoOn) {
+    std::string deck = compare_deck + "\n[contact]\nmethod = \"potential\"\nfriction = 0.4\n";
+    const std::string forth = "type = \"central_difference\", dt = [1e-5, 5e-6]";
+    deck.replace(deck.find(forth), forth.size(), "type = \"verlet\", composition = [\"yoshida_3\", \"single\"]");
+    put("a.toml", deck);
+    const Ended ended = gneiss({"compare", "a.toml"});
+    EXPECT_EQ(ended.code, 3);
+    const auto runs = table().at("runs");
+    EXPECT_EQ(runs[1].at("status"), "refused");
+    EXPECT_THAT(runs[1].at("message").get<std::string>(), HasSubstr("takes steps back in time"));
+    EXPECT_EQ(runs[2].at("status"), "done");
+}
+
+TEST_F(ProgramCompare, OptionsThatNoSchemeTakes_AreFoundBeforeTheFirstRun) {
+    std::string deck = compare_deck;
+    deck.replace(deck.find("type = \"newmark\", dt = 2e-5"), 27, "type = \"newmark\", dt = 0");
+    put("a.toml", deck);
+    const Ended ended = gneiss({"compare", "a.toml"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("Newmark, mean acceleration: integrator.dt"), Not(HasSubstr("[1/4]"))));
+}
+
 TEST_F(ProgramCompare, AReferenceThatFails_IsAllThatIsTried) {
     std::string deck = compare_deck;
     deck.replace(deck.find("type = \"cvode\", rtol = 1e-9"), 28, "type = \"central_difference\", dt = 1.0");
