@@ -7,11 +7,14 @@
 #include <numbers>
 
 #include "integrators/arkode.hpp"
+#include "integrators/bathe.hpp"
 #include "integrators/cvode.hpp"
 #include "integrators/dynamic_relaxation.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/noh_bathe.hpp"
 #include "integrators/quasi_static.hpp"
+#include "integrators/verlet.hpp"
 #include "support/one_thread.hpp"
 #include "verification/run_solid.hpp"
 
@@ -55,6 +58,13 @@ void PrintTo(const Scheme& scheme, std::ostream* out) { *out << scheme.name; }
 const Scheme schemes[] = {
     {"CentralDifference", 2e-3, 1e-4,
      [] { return std::make_unique<CentralDifference>(CentralDifference::Options{.safety = 0.1}); }},
+    {"VelocityVerlet", 2e-3, 1e-4, [] { return std::make_unique<Verlet>(Verlet::Options{{.safety = 0.1}}); }},
+    {"VerletOfOrderFour", 2e-3, 1e-4,
+     [] {
+         return std::make_unique<Verlet>(Verlet::Options{{.safety = 0.3}, Verlet::Form::position, "suzuki_5"});
+     }},
+    {"NohBathe", 2e-3, 1e-4, [] { return std::make_unique<NohBathe>(NohBathe::Options{{.safety = 0.1}}); }},
+    {"Bathe", 5e-3, 1e-3, [] { return std::make_unique<Bathe>(Bathe::Options{.dt = 1e-5}); }},
     {"GeneralizedAlpha", 5e-3, 1e-3, [] { return alpha(1e-7); }},
     {"Newmark", 5e-3, 1e-3, [] { return alpha(1e-7, GeneralizedAlpha::Scheme::newmark(0.25, 0.5)); }},
     {"HilberHughesTaylor", 5e-3, 1e-3, [] { return alpha(1e-7, GeneralizedAlpha::Scheme::hht(0.1)); }},

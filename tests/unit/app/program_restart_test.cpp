@@ -77,7 +77,11 @@ class RestartUnder : public ProgramRestart, public testing::WithParamInterface<c
 
 INSTANTIATE_TEST_SUITE_P(
     Integrators, RestartUnder,
-    testing::Values("type = \"generalized_alpha\", dt = 2e-4", "type = \"newmark\", adaptive = true",
+    testing::Values("type = \"central_difference\"", "type = \"verlet\"", "type = \"verlet\", form = \"position\"",
+                    "type = \"verlet\", composition = \"suzuki_5\"",
+                    "type = \"verlet\", form = \"position\", composition = \"mclachlan_5\", safety = 0.5",
+                    "type = \"noh_bathe\"", "type = \"bathe\", dt = 2e-4", "type = \"generalized_alpha\", dt = 2e-4",
+                    "type = \"newmark\", adaptive = true",
                     "type = \"newmark\", dt = 2e-4, solver = \"gmres\", preconditioner = \"diagonal\"",
                     "type = \"hht_alpha\", dt = 2e-4", "type = \"cvode\"", "type = \"cvode\", solver = \"klu\"",
                     "type = \"cvode\", method = \"adams\", iteration = \"functional\"", "type = \"ida\"",
