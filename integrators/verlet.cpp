@@ -110,10 +110,10 @@ void Verlet::position_form(const SemiDiscrete& system, const State& accepted, co
     std::ranges::copy(from.v, right_.begin());
     subtract_damping_rate(system, half, from.v, right_);
     motion_.evaluate(system, to.t);
-    // Between two middles the drift goes on with one velocity, and z needs no look at the end of a sub-step; with
-    // supports that move it does: their path from middle to middle is not the same forth and back.
+    // z goes to the end of every sub-step: from middle to middle its update would be no symmetric step any more, and a
+    // composition of order 4 of order 2.
     const auto constraints = system.constraints();
-    const bool look_at_ends = !to.z.empty() && !constraints.empty();
+    const bool look_at_ends = !to.z.empty();
     const State& updated_at = first ? accepted : look_at_ends ? from : middle_before_;
     for (int k = 0; k < evaluations_; ++k) {
         if (k > 0)

@@ -42,7 +42,7 @@ public:
 
     void add_force(const Trial& at, std::span<double> f) const override;
     void internal_rate(const Trial& at, std::span<double> rate) const override;
-    /// V linear in time along the step, exponentials of mean rates: positive for any step, order 2.
+    /// V linear in time along the step, exponentials of mean rates: positive for any step, order 2, symmetric in time.
     void update_internal(const Trial& from, const Trial& to, std::span<double> z) const override;
 
     std::vector<std::array<std::int32_t, 2>> couplings() const override;

@@ -295,6 +295,26 @@ INSTANTIATE_TEST_SUITE_P(Schemes, LumpedUnder, testing::ValuesIn(schemes),
 
 // ---- energy
 
+TEST(GasThatBurnsAndLeaks, CompositionsOfVerletSteps_KeepTheirOrder) {
+    constexpr double t_end = 1e-3;
+    test::SolidDescription what;
+    what.lumped = {everything_lumped(Form::hyper).lumped.front()};
+    const test::Solid solid = test::make_solid(plate(), what);
+    const Made reference = table("fehlberg_13_7_8", 1e-13);
+    const State exact = test::run_solid(*solid.system, t_end, *reference).state;
+    for (const Verlet::Form form : {Verlet::Form::velocity, Verlet::Form::position}) {
+        std::vector<double> errors;
+        for (const int n_steps : {40, 80, 160}) {
+            Verlet integrator({{.safety = 1, .dt = t_end / n_steps}, form, "suzuki_5"});
+            const State state = test::run_solid(*solid.system, t_end, integrator).state;
+            errors.push_back(largest_difference(state.u, exact.u) + largest_difference(state.z, exact.z));
+        }
+        for (std::size_t i = 1; i < errors.size(); ++i)
+            EXPECT_NEAR(std::log2(errors[i - 1] / errors[i]), 4, 0.15)
+                << (form == Verlet::Form::velocity ? "velocity " : "position ") << errors[i];
+    }
+}
+
 TEST(GasDrivenCavity, TightTolerance_KeepsMechanicalAndGasEnergy) {
     test::SolidDescription what;
     what.lumped = {gas(2e7)};
