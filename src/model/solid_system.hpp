@@ -50,9 +50,7 @@ public:
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
-    double bond_omega_squared(const State& accepted) const override {
-        return interactions_.omega_squared(accepted, Trial::of(accepted), mass_);
-    }
+    double bond_omega_squared(const State& accepted) const override;
     /// Without follower pressures, whose stiffness is small beside that of elements.
     void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;

@@ -57,7 +57,7 @@ struct StoredEnergies {
 struct FrequencyBound {
     double omega = 0;         ///< upper bound of the natural frequencies, rad/s
     double damping_rate = 0;  ///< upper bound of the eigenvalues of M^-1 (-df/dv), 1/s: viscous stress, not C
-    double of_bonds = 0;      ///< what joints and contact contribute to omega^2, (rad/s)^2
+    double of_bonds = 0;      ///< what joints, contact, lumped models contribute to omega^2, (rad/s)^2
 };
 
 /// Displacements of a trial that are on their way.
