@@ -131,6 +131,14 @@ void need_static_models(const CaseOptions& options) {
     if (!problems.empty()) throw InputError(problems);
 }
 
+/// @throws InputError if the scheme is made for what the case has not
+void need_interactions(const CaseOptions& options) {
+    if (options.integrator.type == "mri" && options.fracture.method == FractureOptions::Method::none &&
+        options.contact.method == ContactOptions::Method::none)
+        throw InputError("integrator.type",
+                         "`mri` takes joints and contact in short steps, and there are neither: take `arkode`");
+}
+
 /// What is given and has no effect where nothing moves.
 std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     std::vector<std::string> warnings;
@@ -224,6 +232,7 @@ Case build_case(CaseOptions options) {
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
+    collect(problems, [&] { need_interactions(options); });
     collect(problems, [&] { built.probes = ProbeTable(*built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
     if (joints) parts.interactions.push_back(std::move(joints));

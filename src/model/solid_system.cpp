@@ -162,6 +162,12 @@ void SolidSystem::external_force(const Trial& trial, std::span<double> f) const 
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
+void SolidSystem::interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+    std::ranges::fill(f, 0.0);
+    elements_.add_company_force(accepted, trial, f, interactions_);
+    interactions_.add_force(accepted, trial, f, {});
+}
+
 void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {
     elements_.internal_rate(accepted, trial, rate);
     models_.internal_rate(trial, rate);

@@ -120,6 +120,15 @@ public:
     /// @param[out] f  overwritten, N, shape (n_dof)
     virtual void external_force(const Trial& trial, std::span<double> f) const = 0;
 
+    /// The part of f that parts of the solid exert on each other, joints and contact: stiff, of few nodes, and cheap
+    /// beside the rest. Multirate schemes take it in shorter steps.
+    /// @param[out] f  overwritten, N, shape (n_dof)
+    virtual void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+        (void)accepted;
+        (void)trial;
+        for (double& value : f) value = 0;
+    }
+
     /// z' = g(t, u, v, z) at the trial's own z. Linear in v but for a part that does not depend on it, as f is in z.
     /// @param[out] rate  overwritten, shape (n_internal)
     virtual void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const = 0;

@@ -148,7 +148,8 @@ TEST_F(ProgramContact, EventTolerance_FirstTouchAtGapOverSpeed_UnderEveryScheme)
     for (const char* integrator :
          {R"(type = "central_difference")", R"(type = "noh_bathe")", R"(type = "generalized_alpha", dt = 2e-6)",
           R"(type = "newmark", dt = 2e-6)", R"(type = "hht_alpha", dt = 2e-6)", R"(type = "bathe", dt = 2e-6)",
-          R"(type = "cvode", rtol = 1e-5)", R"(type = "arkode", rtol = 1e-5)", R"(type = "ida", rtol = 1e-5)"}) {
+          R"(type = "cvode", rtol = 1e-5)", R"(type = "arkode", rtol = 1e-5)",
+          R"(type = "mri", dt = 1e-6, rtol = 1e-5)", R"(type = "ida", rtol = 1e-5)"}) {
         const double late = touches(integrator).at("first_touch_s").get<double>() - exact;
         EXPECT_GE(late, -1e-15) << integrator;  // rounding of positions of 0.04 m
         EXPECT_LE(late, tolerance) << integrator;
@@ -171,6 +172,26 @@ TEST_F(ProgramContact, EventTolerance_RestartedInTouch_TellsTheSame) {
     EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
     EXPECT_EQ(summary("parts").at("touches"), summary("one").at("touches"));
     EXPECT_GE(summary("one").at("touches").at("touched"), 1);
+}
+
+TEST_F(ProgramContact, Multirate_LongStepsForTheBlocks_AgreesAndRestarts) {
+    const nlohmann::json plain = energies({}, "plain");
+    const std::vector<std::string> set{"--set", "integrator={ type = \"mri\", dt = 1e-6, rtol = 1e-7 }"};
+    const nlohmann::json multirate = energies(set, "one");
+    EXPECT_LT(summary("one")["balance_error"], 5e-3);
+    EXPECT_GT(summary("one")["work"]["interaction_evaluations"], summary("one")["work"]["force_evaluations"]);
+    for (const char* column : {"dissipated_contact", "dissipated_friction", "kinetic"})
+        EXPECT_NEAR(multirate[column].get<double>(), plain[column].get<double>(), 0.05 * plain["kinetic"].get<double>())
+            << column;
+    std::vector<std::string> first = set;
+    first.push_back("run.t_end=1e-4");
+    energies(first, "parts");
+    std::vector<std::string> second = set;
+    second.insert(second.end(), {"--restart", "parts/checkpoint.h5"});
+    energies(second, "parts");
+    EXPECT_EQ(contents("parts/probes.csv"), contents("one/probes.csv"));
+    EXPECT_THAT(refusal({"integrator={ type = \"mri\", dt = 1e-6 }", "contact={ method = \"none\" }"}),
+                HasSubstr("`mri` takes joints and contact in short steps, and there are neither"));
 }
 
 TEST_F(ProgramContact, WithJoints_BondedEdgesAreNotInTouch) {

@@ -139,7 +139,7 @@ TEST(DeckErrors, UnknownKeysAndWords) {
          {"key `solid.element`: given \"CTS\", must be one of \"compt\", \"cst\", did you mean `cst`?"}},
         {{"integrator.type=rk4"},
          {"key `integrator.type`: given \"rk4\", must be one of \"central_difference\", \"verlet\", \"noh_bathe\", "
-          "\"generalized_alpha\", \"newmark\", \"hht_alpha\", \"bathe\", \"cvode\", \"arkode\", \"ida\", "
+          "\"generalized_alpha\", \"newmark\", \"hht_alpha\", \"bathe\", \"cvode\", \"arkode\", \"mri\", \"ida\", "
           "\"quasi_static\", \"dynamic_relaxation\""}},
         {{"integrator.type=quasi_static", "integrator.safety=0.5"},
          {"key `integrator.safety`: only for `type` = \"central_difference\", \"verlet\", \"noh_bathe\", here `type` "
