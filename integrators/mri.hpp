@@ -1,7 +1,7 @@
 #pragma once
 // Multirate infinitesimal methods, MRIStep of SUNDIALS' ARKODE: what parts of the solid exert on each other (contact,
 // joints) in short steps, everything else in long ones of fixed length, explicit
-// [Knoth and Wolke, Appl. Numer. Math. 28 (1998) 327; Sandu, SIAM J. Numer. Anal. 57 (2019) 2300].
+// [SUNDIALS' MRIStep; by its names Knoth and Wolke 1998, Sandu 2019: integrators/README.md].
 //
 //     fast:  u' = v,  v' = M^-1 f_interactions(t, u)          slow:  v' = M^-1 (f - f_interactions - C v),  z' = g
 //
