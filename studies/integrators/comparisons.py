@@ -1,0 +1,87 @@
+"""The decks of `gneiss compare`: every scheme at its settings, on every problem."""
+from __future__ import annotations
+
+from math import inf
+
+from studies.common.decks import Deck
+from studies.integrators.problems import SAMPLES, Problem
+from studies.integrators.schemes import SCHEMES, Scheme
+from studies.integrators.theory import stability_limit
+
+# Steps between two samples over `resolved` of the problem. What is of high order falls below the reference's error soon.
+REFINEMENTS = {1: (4.0, 8.0, 16.0), 2: (2.0, 4.0, 8.0), 3: (1.0, 2.0, 4.0), 4: (1.0, 2.0, 4.0), 5: (0.8, 1.2, 1.8),
+               6: (0.8, 1.2, 1.8), 8: (0.42, 0.6, 0.84)}
+TOLERANCES = (1e-4, 1e-6, 1e-8)
+NEWTON = 1e-12          # force out of balance: far below the errors that are measured
+HISTORY_ROWS = 200
+
+TIGHT = {"type": "arkode", "table": "fehlberg_13_7_8"}  # an eighth of the steps of order 4
+WITNESS = {"type": "cvode", "method": "adams", "iteration": "functional", "rtol": 1e-13}
+WITH_NEWTON = ("newmark", "generalized_alpha", "hht_alpha", "bathe")
+
+
+def limited(scheme: Scheme) -> bool:
+    """Whether its steps have to resolve the highest frequency of the mesh."""
+    return scheme.explicit or (scheme.setting == "dt" and stability_limit(scheme.integrator, False) < inf)
+
+
+def resolved_steps(problem: Problem, scheme: Scheme) -> tuple[int, ...]:
+    """Numbers of equal steps between two samples, ascending."""
+    return tuple(round(problem.resolved * factor) for factor in REFINEMENTS[scheme.order])
+
+
+def integrator(problem: Problem, scheme: Scheme, quick: bool) -> Deck:
+    """Keys of `[integrator]`, with a list of settings. The quick study has orders where they cost least."""
+    keys = dict(scheme.integrator)
+    if scheme.setting == "rtol":
+        return keys | {"rtol": list(TOLERANCES[1:2] if quick else TOLERANCES)}
+    numbers = resolved_steps(problem, scheme)
+    beyond = () if limited(scheme) else problem.beyond
+    if quick:
+        numbers, beyond = (numbers[1:] if problem.name in ("bar", "borehole") else numbers[1:2]), beyond[:1]
+    keys["dt"] = [problem.interval / n for n in [*beyond, *numbers]]
+    if keys["type"] in WITH_NEWTON:
+        keys["tolerance"] = NEWTON
+    return keys
+
+
+def deck(problem: Problem, profile: str) -> Deck:
+    result = dict(problem.deck)
+    result["output"] = {"history": problem.deck["run"]["t_end"] / HISTORY_ROWS}
+    tight = TIGHT | {"dt": problem.interval / (8 * problem.resolved)}
+    schemes = [{"name": "witness", "integrator": WITNESS}]
+    schemes += [{"name": scheme.name, "integrator": integrator(problem, scheme, profile == "quick")}
+                for scheme in SCHEMES.values()]
+    if problem.exact:
+        schemes.insert(0, {"name": "tight", "integrator": tight})
+    result["compare"] = {"samples": SAMPLES, "scheme": schemes,
+                         **({"exact": problem.exact} if problem.exact else {"reference": tight})}
+    return result
+
+
+# --- `centre` against `mean`: one setting of each scheme, far below its limit, free vibrations over a long time ---
+FLUTTER_RATIO, FLUTTER_TIME, FLUTTER_SPEED = 0.3, 30e-3, 1e-9   # Poisson's; s; m/s, so small that growth stays linear
+FLUTTER_STEPS = 900     # omega dt about 0.4 for the highest frequency
+FLUTTER_RTOL = 1e-7
+VOLUMETRIC = ("mean", "centre")
+
+
+def flutter_deck(volumetric: str) -> Deck:
+    """The square of the study locking: left and bottom edge fixed, a start without symmetry, nothing damped."""
+    schemes = []
+    for scheme in SCHEMES.values():
+        keys = dict(scheme.integrator)
+        keys |= {"rtol": FLUTTER_RTOL} if scheme.setting == "rtol" else {"dt": FLUTTER_TIME / FLUTTER_STEPS}
+        schemes.append({"name": scheme.name, "integrator": keys})
+    return {
+        "title": f"integrators: free vibration of a square, volumetric {volumetric}",
+        "mesh": {"generator": "rectangle", "width": 1.0, "height": 1.0, "cells": [2, 2]},
+        "solid": {"element": "compt", "plane": "strain", "volumetric": volumetric},
+        "material": [{"density": 1000.0, "stress_map": "direct" if volumetric == "centre" else "conjugate",
+                      "constants": {"E": 1e9, "nu": FLUTTER_RATIO}}],
+        "boundary": [{"on": on, "type": "fixed"} for on in ("left", "bottom")],
+        "initial": [{"velocity": [f"{FLUTTER_SPEED}*sin(7*x + 3*y)*x*y", f"{FLUTTER_SPEED}*cos(5*x - 4*y)*x*y"]}],
+        "run": {"t_end": FLUTTER_TIME},
+        "output": {"history": FLUTTER_TIME / 1000},
+        "compare": {"samples": 1, "reference": TIGHT | {"dt": FLUTTER_TIME / (2 * FLUTTER_STEPS)}, "scheme": schemes},
+    }
