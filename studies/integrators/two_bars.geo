@@ -1,12 +1,15 @@
-// Two bars of length L and height H, a gap apart along x. The right one has one row more, so that no node meets a node.
-DefineConstant[ L = 1, H = 0.25, gap = 1e-4, n = 8 ];
+// Two bars of length L, a gap apart along x. The right one is higher on either side and has one row more: where corners and
+// nodes would meet each other, round-off would decide what touches what.
+DefineConstant[ L = 1, H = 0.25, more = 0.01, gap = 1e-4, n = 8 ];
 For i In {0:1}
   x = i*(L + gap) - L - gap/2;
+  low = -i*more;
+  high = H + i*more;
   p = newp;
-  Point(p) = {x, 0, 0};
-  Point(p + 1) = {x + L, 0, 0};
-  Point(p + 2) = {x + L, H, 0};
-  Point(p + 3) = {x, H, 0};
+  Point(p) = {x, low, 0};
+  Point(p + 1) = {x + L, low, 0};
+  Point(p + 2) = {x + L, high, 0};
+  Point(p + 3) = {x, high, 0};
   c = newc;
   For k In {0:3}
     Line(c + k) = {p + k, p + (k + 1)%4};
