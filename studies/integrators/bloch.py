@@ -14,6 +14,8 @@ from studies.common.matrices import System
 
 Array = NDArray[np.float64]
 
+LEAST_OVERLAP = 0.8
+
 
 @dataclass(frozen=True)
 class Period:
@@ -62,9 +64,11 @@ def frequencies(period: Period, k: Array) -> tuple[Array, NDArray[np.complex128]
 
 
 def speed(period: Period, wavelength: float, direction: float, polarisation: Array) -> float:
-    """omega/|k| of the branch whose shape is closest to a plane wave polarised so, m/s."""
+    """omega/|k| of the branch whose shape is closest to a plane wave polarised so, m/s; NaN where none is: short waves of
+    several branches mix."""
     k = 2 * np.pi / wavelength * np.array([np.cos(direction), np.sin(direction)])
     omega, shapes = frequencies(period, k)
     wave = (np.sqrt(period.mass)[:, None] * polarisation[None, :]).ravel()
     overlap = np.abs(wave @ shapes.conj()) / np.linalg.norm(wave)
-    return float(omega[np.argmax(overlap)] / np.linalg.norm(k))
+    best = int(np.argmax(overlap))
+    return float(omega[best] / np.linalg.norm(k)) if overlap[best] > LEAST_OVERLAP else float("nan")

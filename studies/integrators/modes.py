@@ -105,9 +105,20 @@ def equal_steps(program: str, mesh: str, modes: Modes, keys: dict[str, Any], dt:
     return run(program, mesh, modes, keys | {"dt": dt}, n * dt, dt, folder)
 
 
+# Where a step leaves next to nothing of a mode, later rows are the round-off of the others.
+GONE = 1e-5
+
+
+def alive(course: Course, mode: int, least: int) -> Array:
+    """(omega q, p) of a mode, shape (2, rows), as long as it is there."""
+    y = np.stack([course.omega_q[:, mode], course.p[:, mode]])
+    gone = np.nonzero(np.linalg.norm(y, axis=0) < GONE * np.linalg.norm(y[:, 0]))[0]
+    return y[:, :max(least, int(gone[0]))] if gone.size else y
+
+
 def step_matrix(course: Course, mode: int) -> Array:
     """The 2 x 2 matrix that takes (omega q, p) over a step, by least squares over all of them."""
-    y = np.stack([course.omega_q[:, mode], course.p[:, mode]])
+    y = alive(course, mode, 4)
     size = np.linalg.norm(y[:, :-1], axis=0)    # every step counts the same, though it may grow or decay
     return np.linalg.lstsq((y[:, :-1] / size).T, (y[:, 1:] / size).T, rcond=None)[0].T
 
@@ -117,7 +128,7 @@ def step_eigenvalues(course: Course, mode: int, n_values: int) -> NDArray[np.com
     q, p) alone do not tell the next state, but both follow the recurrence of the characteristic polynomial."""
     if n_values == 2:
         return np.linalg.eigvals(step_matrix(course, mode))
-    y = np.stack([course.omega_q[:, mode], course.p[:, mode]])
+    y = alive(course, mode, 2 * n_values + 1)
     rows = [np.concatenate([y[:, k:k + n_values] / np.max(np.abs(y[:, k:k + n_values + 1])),
                             y[:, k + n_values:k + n_values + 1] / np.max(np.abs(y[:, k:k + n_values + 1]))], axis=1)
             for k in range(y.shape[1] - n_values)]

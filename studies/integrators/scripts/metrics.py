@@ -1,0 +1,149 @@
+"""Workflow step: the metrics of the study from its comparisons and measurements, into summary.json. README.md defines each."""
+from __future__ import annotations
+
+import json
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+from scipy.optimize import brentq
+
+import numpy as np
+
+from studies.common.results import read_summary, read_table
+from studies.integrators import analysis, comparisons, through_events
+from studies.integrators.problems import PROBLEMS
+from studies.integrators.schemes import SCHEMES, fixed
+from studies.locking.spectrum import growth_rate
+
+COMPARISONS, MEASURED = Path("comparisons"), Path("measured")
+Runs = dict[str, list[analysis.Run]]
+
+
+def farthest(values: list[float], documented: int) -> float:
+    """The one farthest from the documented order; NaN where there is none."""
+    finite = [value for value in values if math.isfinite(value)]
+    return max(finite, key=lambda value: abs(value - documented)) if finite else math.nan
+
+
+def orders(compared: dict[str, Runs], floors: dict[str, float]) -> dict[str, dict[str, float]]:
+    """By scheme and problem; also those through contact, which are reported."""
+    found: dict[str, dict[str, float]] = {}
+    for scheme in SCHEMES.values():
+        if scheme.order is None:
+            continue
+        for name, problem in PROBLEMS.items():
+            step = problem.interval / (problem.resolved * 0.4)  # omega dt of about 2: what order 8 takes
+            value = analysis.order(compared[name].get(scheme.name, []), floors[name], step, problem.deck["run"]["t_end"])
+            found.setdefault(scheme.name, {})[name] = value
+    return found
+
+
+def exact_instant() -> float:
+    """Of the splitting mesh, s: ln(s)/s times the P-wave modulus reaches the strength, s = 1 + rate t."""
+    E, nu = through_events.ROCK["constants"]["E"], through_events.ROCK["constants"]["nu"]
+    level = through_events.SEAM["tensile"] / (E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))
+    return brentq(lambda t: math.log1p(through_events.STRETCHING * t) / (1 + through_events.STRETCHING * t) - level,
+                  0.0, 1e-4, xtol=1e-18, rtol=1e-14)
+
+
+def instants(runs: Runs) -> dict[str, float]:
+    """First openings, s."""
+    found = {}
+    for name, of_scheme in runs.items():
+        for run in of_scheme:
+            if run.status == "done":
+                found[name] = read_summary(run.folder)["cracks"]["first_opening_s"]
+    return found
+
+
+def flutter(compared: dict[str, Runs]) -> dict[str, dict[str, float]]:
+    """Growth of the velocity of a free vibration by volumetric form and scheme, 1/s."""
+    found: dict[str, dict[str, float]] = {}
+    for volumetric in comparisons.VOLUMETRIC:
+        for name, of_scheme in compared[f"flutter-{volumetric}"].items():
+            if of_scheme[0].status == "done":
+                history = read_table(of_scheme[0].folder / "history.csv")
+                found.setdefault(volumetric, {})[name] = growth_rate(history.t[1:], history["kinetic"][1:])
+    return found
+
+
+def restitution(runs: Runs) -> dict[str, float]:
+    """Of two discs: kinetic energy in the end over that at the start, by scheme; the rest vibrates, or is lost."""
+    found = {}
+    for name, of_scheme in runs.items():
+        if of_scheme[0].status == "done":
+            history = read_table(of_scheme[0].folder / "history.csv")
+            found[name] = float((history["kinetic"][-1] + history["stored_material"][-1]) / history["kinetic"][0])
+    return found
+
+
+def worst_wave_speed(waves: dict[str, Any], element: str, kind: str, nu: float, wavelength: str) -> float:
+    """c_h/c - 1 farthest from 0 over directions and meshes."""
+    values = np.concatenate([mesh["over_direction"][wavelength] for mesh in waves["meshes"]
+                             if (mesh["element"], mesh["wave"], mesh["nu"]) == (element, kind, nu)])
+    return float(max(values - 1, key=lambda value: 0 if math.isnan(value) else abs(value)))
+
+
+def collect(profile: str) -> dict[str, Any]:
+    compared = {path.parent.name: analysis.read_comparison(path.parent)
+                for path in sorted(COMPARISONS.glob("*/compare.json"))}
+    steps = json.loads((MEASURED / "steps.json").read_text())
+    waves = json.loads((MEASURED / "waves.json").read_text())
+    smooth = [name for name, problem in PROBLEMS.items() if problem.smooth]
+    floors = {name: analysis.disagreement(compared[name]) for name in PROBLEMS}
+    order = orders(compared, floors)
+    failed = [entry for name, runs in compared.items() for entry in analysis.failures(runs, name)]
+    exact = exact_instant()
+    opened = {name: instants(compared[name]) for name in ("splitting", "cantilever")}
+    late = {scheme: abs(t - exact) / through_events.SPLITTING_TOLERANCE for scheme, t in opened["splitting"].items()}
+    of_beam = np.array(list(opened["cantilever"].values()))
+    growing = flutter(compared)
+    tight = [run for name in ("reference", "witness") for run in compared["gas"][name]]
+    energy = {name: {scheme: analysis.middle(of_scheme).energy_drift for scheme, of_scheme in compared[name].items()
+                     if scheme in SCHEMES and analysis.middle(of_scheme).status == "done"} for name in PROBLEMS}
+
+    metrics: dict[str, Any] = {
+        f"observed_order_{scheme.name}": farthest([order[scheme.name][name] for name in smooth], scheme.order)
+        for scheme in fixed()}
+    metrics |= {f"observed_order_{name}": farthest([order[name][problem] for problem in smooth], scheme.order)
+                for name, scheme in SCHEMES.items() if scheme.setting == "rtol" and scheme.order}
+    metrics |= {f"contact_order_{scheme.name}": order[scheme.name]["impact"] for scheme in fixed()}
+    for name, entry in steps["stability"].items():
+        if entry["theory"] > 0:
+            metrics[f"stability_limit_{name}"] = entry["measured"]
+        else:
+            metrics[f"growth_error_{name}"] = max(abs(point["measured"] / point["theory"] - 1) for point in entry["growth"])
+    limits = [entry for entry in steps["stability"].values() if entry["theory"] > 0]
+    metrics |= {
+        "stability_limit_error_max": max(abs(entry["measured"] / entry["theory"] - 1) if entry["measured"] else math.inf
+                                         for entry in limits),
+        "step_eigenvalue_difference_max": max(point["difference"] for points in steps["steps"].values()
+                                              for point in points),
+        "reference_self_agreement": max(floors[name] for name in smooth),
+        "reference_self_agreement_impact": floors["impact"],
+        "gas_cavity_energy_error": max(analysis.mechanical_energy_error(run) for run in tight),
+        "event_time_error_max": max(late.values()),
+        "cantilever_event_time_spread": float(np.ptp(of_beam)) / through_events.BEAM_TOLERANCE,
+        "runs_failed_unexplained": sum(not entry["explained"] for entry in failed),
+        "runs_failed_explained": sum(bool(entry["explained"]) for entry in failed),
+        "centre_growth_rate_min": min(growing["centre"].values()),
+        "centre_growth_rate_reference": growing["centre"]["reference"],
+        "mean_growth_over_centre_max": max(growing["mean"].values()) / growing["centre"]["reference"],
+        "standing_wave_difference_max": max(abs(entry["run"] / entry["bloch"] - 1) for entry in waves["standing"].values()),
+    }
+    for element in ("cst", "compt"):
+        for kind in "PS":
+            for nu in (0.3, 0.49):
+                metrics[f"wave_speed_error_10h_{element}_{kind}_nu{nu:g}"] = \
+                    worst_wave_speed(waves, element, kind, nu, "10")
+    metrics |= {f"energy_drift_{name}_{scheme}": value for name, of_scheme in energy.items()
+                for scheme, value in of_scheme.items()}
+    details = {"order": order, "floor": floors, "failed": failed, "first_opening": opened, "exact_instant": exact,
+               "growth_rate": growing, "disc_energy_kept": restitution(compared["discs"]), "stability": steps["stability"]}
+    return {"study": "integrators", "status": "done", "extent": profile, "metrics": metrics, "details": details,
+            "written": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+
+
+Path(snakemake.output[0]).write_text(json.dumps(collect(snakemake.params.profile), indent=1) + "\n")  # noqa: F821
