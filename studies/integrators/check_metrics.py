@@ -36,7 +36,6 @@ def bounds() -> dict[str, Bound]:
         "gas_cavity_energy_error": Bound(1e-6, 1e-6),
         # over the tolerance
         "event_time_error_max": Bound(10.0, 10.0),
-        "cantilever_event_time_spread": Bound(10.0, 10.0),
         "runs_failed_unexplained": Bound(0, 0),
         # the fit of one sine to a wave that is not quite one
         "standing_wave_difference_max": Bound(1e-3, 1e-3),

@@ -160,7 +160,7 @@ LEAST_GROWTH = 1e-12
 LEAST_GROWTH_OF_PAIRS = 1e-6
 
 
-def first_unstable(grows: Callable[[float], bool], largest: float, scan: float = 1e-3) -> float:
+def first_unstable(grows: Callable[[float], bool], largest: float, scan: float = 5e-3) -> float:
     """The first y at which steps grow, by a scan upwards and bisection; inf if there is none up to the largest."""
     y = scan
     while y <= largest and not grows(y):
@@ -176,5 +176,11 @@ def first_unstable(grows: Callable[[float], bool], largest: float, scan: float =
 
 def stability_limit(keys: dict[str, Any], explicit: bool, largest: float = 8.0) -> float:
     """omega dt up to which no step grows; 0 where every step does, inf where none up to the largest."""
+    return _stability_limit(tuple(sorted(keys.items())), explicit, largest)
+
+
+@lru_cache(maxsize=None)
+def _stability_limit(items: tuple[tuple[str, Any], ...], explicit: bool, largest: float) -> float:
+    keys = dict(items)
     least = LEAST_GROWTH if keys["type"] == "arkode" else LEAST_GROWTH_OF_PAIRS
     return first_unstable(lambda y: growth(keys, y, explicit) > least, largest)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from studies.common.decks import Deck
 from studies.integrators.comparisons import TIGHT, WITH_NEWTON
+from studies.integrators.problems import impact
 from studies.integrators.schemes import SCHEMES
 
 FOLDER = Path(__file__).parent
@@ -78,8 +79,17 @@ def discs() -> Deck:
     }
 
 
-STEPS = {"splitting": 390, "cantilever": 1500, "discs": 600}    # equal ones of fixed steps, all below every limit
-PROBLEMS = {"splitting": splitting, "cantilever": cantilever, "discs": discs}
+# --- two bars that collide: the instants at which they touch and part ---
+TOUCH_TOLERANCE = 1e-9
+
+
+def touch() -> Deck:
+    result = impact().deck
+    return result | {"title": "integrators: two bars touch and part", "run": result["run"] | {"event_tolerance": TOUCH_TOLERANCE}}
+
+
+STEPS = {"touch": 600, "splitting": 390, "cantilever": 1500, "discs": 600}    # equal ones of fixed steps, all below every limit
+PROBLEMS = {"touch": touch, "splitting": splitting, "cantilever": cantilever, "discs": discs}
 
 
 def deck(name: str) -> Deck:

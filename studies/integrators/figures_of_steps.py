@@ -1,0 +1,135 @@
+"""The figures of what steps and meshes do to waves: stability, dispersion and dissipation, wave speeds."""
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studies.common import style
+from studies.common.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, plt
+from studies.integrators.schemes import SCHEMES
+
+PANELS = {  # of the dispersion figure: title and schemes
+    "explicit, order 2; Verlet": ["central_difference", "noh_bathe", "verlet_yoshida_3_velocity", "verlet_suzuki_5_velocity",
+                                  "verlet_mclachlan_5_velocity"],
+    "Newmark and Bathe": ["newmark", "newmark_linear", "newmark_damped", "generalized_alpha", "generalized_alpha_0",
+                          "hht_alpha", "bathe", "bathe_0"],
+    "explicit Runge-Kutta": ["heun_euler_2_1_2", "knoth_wolke_3_3", "zonneveld_5_3_4", "sayfy_aburub_6_3_4", "cash_karp_6_4_5",
+                             "dormand_prince_7_4_5", "verner_8_5_6", "fehlberg_13_7_8"],
+    "implicit Runge-Kutta": ["sdirk_2_1_2", "trbdf2_3_3_2", "kvaerno_4_2_3", "esdirk325l2sa_5_2_3", "cash_5_3_4",
+                             "kvaerno_5_3_4", "esdirk437l2sa_7_3_4", "esdirk547l2sa_7_4_5"],
+    "to a tolerance (1e-4)": ["cvode_adams", "cvode_adams_4", "cvode_bdf", "cvode_bdf_2", "ida", "arkode_explicit",
+                              "arkode_implicit", "generalized_alpha_adaptive"],
+}
+COLOURS = [BLUE, ORANGE, GREEN, RED, PURPLE, SKY, "#8C6D31", GREY]
+LEAST = 1e-9  # what modes of the same run leave in each other
+FORCES = {"central_difference": 1, "verlet_single_velocity": 1, "verlet_single_position": 1, "noh_bathe": 2,
+          "verlet_yoshida_3_velocity": 3, "verlet_yoshida_3_position": 3, "verlet_suzuki_5_velocity": 5,
+          "verlet_suzuki_5_position": 5, "verlet_mclachlan_5_velocity": 5, "verlet_mclachlan_5_position": 5}
+
+
+def _points(steps: dict[str, Any], name: str, panel: str) -> list[dict[str, float]]:
+    return steps["own_steps"][name]["0.0001"] if "tolerance" in panel else steps["steps"][name]
+
+
+def _plain(value: float | None) -> float:
+    """What is drawn: the size, nothing where it is round-off."""
+    return abs(value) if value is not None and math.isfinite(value) and abs(value) > LEAST else math.nan
+
+
+def dispersion(steps: dict[str, Any], path: Path) -> None:
+    """Size of the period elongation, and of the damping ratio, against omega dt: lines theory, dots the program."""
+    figure, grid = plt.subplots(len(PANELS), 2, figsize=(style.FULL_WIDTH, 11.0), sharex=True)
+    for row, (title, names) in zip(grid, PANELS.items()):
+        for name, colour in zip(names, COLOURS):
+            points = _points(steps, name, title)
+            y = [point["y"] for point in points]
+            for axes, kind in zip(row, ("elongation", "damping")):
+                measured = [_plain(point.get(f"{kind}_measured")) for point in points]
+                axes.loglog(y, measured, "." if "tolerance" not in title else ".-", ms=3, lw=0.6, color=colour,
+                            label=SCHEMES[name].label)
+                axes.loglog(y, [_plain(point.get(f"{kind}_theory")) for point in points], "-", lw=0.9, color=colour)
+        style.panel_label(row[0], f"{title}: |T/T exact − 1|")
+        style.panel_label(row[1], "|damping ratio|")
+        row[1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1.0, 0.5), markerscale=2)
+        for axes in row:
+            axes.set(ylim=(LEAST, 3), xlim=(0.03, 7))
+    for axes in grid[-1]:
+        axes.set_xlabel("ω Δt (of the mean step, to a tolerance)")
+    style.save(figure, path)
+
+
+def _forces(name: str) -> int:
+    """Evaluations in a step; of tables their stages, the first number of the name."""
+    return FORCES.get(name) or int(re.search(r"_(\d+)_", name)[1])
+
+
+def stability(steps: dict[str, Any], path: Path) -> None:
+    """Measured limits on those of theory, and the step that an evaluation of forces buys."""
+    found = {name: entry for name, entry in steps["stability"].items() if entry["theory"] > 0}
+    names = sorted(found, key=lambda name: found[name]["theory"])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 3.8), sharey=True, width_ratios=(1, 1))
+    rows = np.arange(len(names))
+    left.barh(rows, [found[name]["theory"] for name in names], color="#DDDDDD", label="theory")
+    left.plot([found[name]["measured"] for name in names], rows, "o", ms=4, color=BLUE, label="measured")
+    left.set_yticks(rows, [SCHEMES[name].label for name in names], fontsize=7)
+    left.set(xlabel="limit of ω Δt")
+    left.legend(loc="lower right")
+    steps_of_one = [found[name]["theory"] / _forces(name) if SCHEMES[name].explicit else 0.0 for name in names]
+    right.barh(rows, steps_of_one, color=ORANGE)
+    right.set(xlabel="limit of ω Δt/evaluations of forces in a step")
+    style.save(figure, path)
+
+
+def waves(measured: dict[str, Any], path: Path) -> None:
+    """c_h/c of P and S waves: over direction as a polar plot, over h/wavelength for both Poisson's ratios."""
+    figure = plt.figure(figsize=(style.FULL_WIDTH, 9.4))
+    rows = figure.subfigures(2, 1, height_ratios=(1.05, 1))
+    polar = rows[0].subplots(2, 3, subplot_kw={"projection": "polar"})
+    direction = np.radians(measured["direction"])
+    whole = np.concatenate([direction, direction + np.pi])
+    patterns = ("uniform_right", "alternating", "crossed")
+    for line, (element, colours) in zip(polar, (("cst", None), ("compt", None))):
+        for axes, pattern in zip(line, patterns):
+            for mesh in measured["meshes"]:
+                if (mesh["element"], mesh["pattern"], mesh["nu"]) != (element, pattern, 0.3):
+                    continue
+                for (wavelength, values), width in zip(mesh["over_direction"].items(), (0.7, 1.1, 1.6)):
+                    axes.plot(whole, np.concatenate([values, values]), "-" if mesh["wave"] == "P" else "--", lw=width,
+                              color={"4": RED, "6": ORANGE, "10": BLUE}[wavelength],
+                              label=f"{mesh['wave']}, λ = {wavelength} h")
+            axes.plot(np.linspace(0, 2 * np.pi, 181), np.ones(181), color=GREY, lw=0.6)
+            axes.set_ylim(0.6, 1.15)
+            axes.set_yticks([0.7, 0.8, 0.9, 1.0, 1.1])
+            axes.set_xticks(np.radians([0, 45, 90, 135, 180, 225, 270, 315]))
+            axes.tick_params(labelsize=6, pad=-2)
+            axes.set_title(f"{element.upper()}, {pattern.replace('_', ' ')}", fontsize=8)
+    handles, labels = polar[0, 0].get_legend_handles_labels()
+    rows[0].legend(handles, labels, loc="outside lower center", ncol=6, fontsize=7)
+    curves = rows[1].subplots(2, 2, sharex=True)
+    over = 1 / np.array(measured["wavelength"])
+    for line, nu in zip(curves, (0.3, 0.49)):
+        for axes, kind in zip(line, "PS"):
+            for mesh in measured["meshes"]:
+                if (mesh["wave"], mesh["nu"]) != (kind, nu):
+                    continue
+                colour = {"uniform_right": BLUE, "alternating": ORANGE, "crossed": GREEN}[mesh["pattern"]]
+                values = np.array([v for v in mesh["over_wavelength"].values()], dtype=float)
+                low, high = np.nanmin(values, axis=0), np.nanmax(values, axis=0)
+                hatch = {"alpha": 0.35} if mesh["element"] == "compt" else {"alpha": 0.12}
+                axes.fill_between(over, low, high, color=colour, lw=0, **hatch)
+                axes.plot(over, values[1], "-" if mesh["element"] == "compt" else "--", color=colour, lw=1.0,
+                          label=f"{mesh['element'].upper()}, {mesh['pattern'].replace('_', ' ')}")
+            axes.axhline(1, color=GREY, lw=0.6)
+            axes.set(ylim=(0.4, 1.4 if nu == 0.3 else 2.0))
+            style.panel_label(axes, f"{kind} wave, ν = {nu:g}")
+    for axes in curves[-1]:
+        axes.set_xlabel("h/λ, h the sub-edge")
+    for axes in curves[:, 0]:
+        axes.set_ylabel("c_h/c; bands: directions")
+    handles, labels = curves[0, 0].get_legend_handles_labels()
+    rows[1].legend(handles, labels, loc="outside lower center", ncol=3, fontsize=7)
+    style.save(figure, path)
