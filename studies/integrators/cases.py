@@ -8,6 +8,6 @@ from studies.integrators.problems import PROBLEMS
 
 def decks(profile: str) -> dict[str, Deck]:
     found = {name: comparisons.deck(problem, profile) for name, problem in PROBLEMS.items()}
-    found |= {name: through_events.deck(name) for name in through_events.PROBLEMS}
-    return found | {f"flutter-{volumetric}": comparisons.flutter_deck(volumetric)
+    found |= {name: through_events.deck(name, profile) for name in through_events.PROBLEMS}
+    return found | {f"flutter-{volumetric}": comparisons.flutter_deck(volumetric, profile)
                     for volumetric in comparisons.VOLUMETRIC}

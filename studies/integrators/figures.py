@@ -13,24 +13,15 @@ from studies.common.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, pl
 from studies.integrators import through_events
 from studies.integrators.analysis import Run
 from studies.integrators.problems import PROBLEMS
-from studies.integrators.schemes import FAMILIES, SCHEMES, fixed
+from studies.integrators.schemes import SCHEMES, fixed, representatives
 
 Compared = dict[str, dict[str, list[Run]]]
 
-FAMILY_COLOUR = dict(zip(FAMILIES, [BLUE, SKY, RED, ORANGE, GREEN, PURPLE, "#8C6D31", GREY]))
 # One of each kind, told apart in figures where all of them would be a thicket.
-SHOWN = {
-    "central_difference": (BLUE, "o", "-"), "noh_bathe": (SKY, "v", "-"), "verlet_mclachlan_5_velocity": (GREEN, "s", "-"),
-    "dormand_prince_7_4_5": (ORANGE, "^", "-"), "fehlberg_13_7_8": (RED, "D", "-"),
-    "newmark": (BLUE, "o", "--"), "generalized_alpha": (SKY, "v", "--"), "bathe_0": (PURPLE, "P", "--"),
-    "esdirk547l2sa_7_4_5": (ORANGE, "^", "--"), "cvode_adams": (GREEN, "x", ":"), "cvode_bdf": (RED, "+", ":"),
-    "ida": (PURPLE, "*", ":"),
-}
-
-
-def _legend_below(figure: plt.Figure, axes: plt.Axes, columns: int = 4) -> None:
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncol=columns)
+SHOWN = dict(zip((scheme.name for scheme in representatives()), [
+    (BLUE, "o", "-"), (SKY, "v", "-"), (GREEN, "s", "-"), (ORANGE, "^", "-"), (RED, "D", "-"),
+    (BLUE, "o", "--"), (SKY, "v", "--"), (PURPLE, "P", "--"), (ORANGE, "^", "--"),
+    (GREEN, "x", ":"), (RED, "+", ":"), (PURPLE, "*", ":")]))
 
 
 def precision(compared: Compared, path: Path) -> None:
@@ -74,7 +65,7 @@ def orders(summary: dict[str, Any], path: Path) -> None:
     axes.plot(through, rows, "x", ms=5, color=RED, label="through contact (impact)")
     axes.set_yticks(rows, [scheme.label for scheme in schemes], fontsize=6.5)
     axes.set(xlabel="observed order; grey: documented ± 0.15", ylim=(len(schemes) - 0.5, -0.5), xlim=(-0.5, 9))
-    _legend_below(figure, axes, 5)
+    axes.legend(loc="lower right", fontsize=7)
     style.save(figure, path)
 
 
@@ -90,8 +81,7 @@ def stiff(compared: Compared, path: Path) -> None:
     axes.text(problem.interval / problem.resolved * 1e6 / 0.8 * 1.05, 2e-9, "ω Δt = 1 for the highest\nfrequency of the mesh",
               fontsize=7.5, color=GREY)
     axes.set(xlabel="mean step [µs]", ylabel="error of u and v", ylim=(1e-9, 1))
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right center", fontsize=7)
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=7)
     style.save(figure, path)
 
 

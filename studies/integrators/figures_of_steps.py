@@ -25,6 +25,7 @@ PANELS = {  # of the dispersion figure: title and schemes
                               "arkode_implicit", "generalized_alpha_adaptive"],
 }
 COLOURS = [BLUE, ORANGE, GREEN, RED, PURPLE, SKY, "#8C6D31", GREY]
+MESH_COLOUR = {"uniform_right": BLUE, "alternating": ORANGE, "crossed": GREEN}
 LEAST = 1e-9  # what modes of the same run leave in each other
 FORCES = {"central_difference": 1, "verlet_single_velocity": 1, "verlet_single_position": 1, "noh_bathe": 2,
           "verlet_yoshida_3_velocity": 3, "verlet_yoshida_3_position": 3, "verlet_suzuki_5_velocity": 5,
@@ -80,56 +81,54 @@ def stability(steps: dict[str, Any], path: Path) -> None:
     left.legend(loc="lower right")
     steps_of_one = [found[name]["theory"] / _forces(name) if SCHEMES[name].explicit else 0.0 for name in names]
     right.barh(rows, steps_of_one, color=ORANGE)
-    right.set(xlabel="limit of ω Δt/evaluations of forces in a step")
+    right.set(xlabel="limit over evaluations of forces in a step")
     style.save(figure, path)
 
 
-def waves(measured: dict[str, Any], path: Path) -> None:
-    """c_h/c of P and S waves: over direction as a polar plot, over h/wavelength for both Poisson's ratios."""
-    figure = plt.figure(figsize=(style.FULL_WIDTH, 9.4))
-    rows = figure.subfigures(2, 1, height_ratios=(1.05, 1))
-    polar = rows[0].subplots(2, 3, subplot_kw={"projection": "polar"})
+def wave_directions(measured: dict[str, Any], path: Path) -> None:
+    """c_h/c of P and S waves over direction, Poisson's ratio 0.3."""
+    figure, grid = plt.subplots(2, 3, figsize=(style.FULL_WIDTH, 5.6), subplot_kw={"projection": "polar"})
+    figure.get_layout_engine().set(rect=(0, 0.09, 1, 0.91))
     direction = np.radians(measured["direction"])
     whole = np.concatenate([direction, direction + np.pi])
-    patterns = ("uniform_right", "alternating", "crossed")
-    for line, (element, colours) in zip(polar, (("cst", None), ("compt", None))):
-        for axes, pattern in zip(line, patterns):
+    for row, element in zip(grid, ("cst", "compt")):
+        for axes, pattern in zip(row, MESH_COLOUR):
             for mesh in measured["meshes"]:
                 if (mesh["element"], mesh["pattern"], mesh["nu"]) != (element, pattern, 0.3):
                     continue
-                for (wavelength, values), width in zip(mesh["over_direction"].items(), (0.7, 1.1, 1.6)):
-                    axes.plot(whole, np.concatenate([values, values]), "-" if mesh["wave"] == "P" else "--", lw=width,
+                for wavelength, values in mesh["over_direction"].items():
+                    axes.plot(whole, np.concatenate([values, values]), "-" if mesh["wave"] == "P" else "--", lw=1.1,
                               color={"4": RED, "6": ORANGE, "10": BLUE}[wavelength],
                               label=f"{mesh['wave']}, λ = {wavelength} h")
             axes.plot(np.linspace(0, 2 * np.pi, 181), np.ones(181), color=GREY, lw=0.6)
             axes.set_ylim(0.6, 1.15)
             axes.set_yticks([0.7, 0.8, 0.9, 1.0, 1.1])
-            axes.set_xticks(np.radians([0, 45, 90, 135, 180, 225, 270, 315]))
             axes.tick_params(labelsize=6, pad=-2)
             axes.set_title(f"{element.upper()}, {pattern.replace('_', ' ')}", fontsize=8)
-    handles, labels = polar[0, 0].get_legend_handles_labels()
-    rows[0].legend(handles, labels, loc="outside lower center", ncol=6, fontsize=7)
-    curves = rows[1].subplots(2, 2, sharex=True)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncol=6, fontsize=7)
+    style.save(figure, path)
+
+
+def wave_lengths(measured: dict[str, Any], path: Path) -> None:
+    """c_h/c over h/wavelength at 22.5 degrees, both Poisson's ratios."""
+    figure, grid = plt.subplots(2, 2, figsize=(style.FULL_WIDTH, 5.2), sharex=True)
+    figure.get_layout_engine().set(rect=(0, 0.09, 1, 0.91))
     over = 1 / np.array(measured["wavelength"])
-    for line, nu in zip(curves, (0.3, 0.49)):
-        for axes, kind in zip(line, "PS"):
+    for row, nu in zip(grid, (0.3, 0.49)):
+        for axes, kind in zip(row, "PS"):
             for mesh in measured["meshes"]:
-                if (mesh["wave"], mesh["nu"]) != (kind, nu):
-                    continue
-                colour = {"uniform_right": BLUE, "alternating": ORANGE, "crossed": GREEN}[mesh["pattern"]]
-                values = np.array([v for v in mesh["over_wavelength"].values()], dtype=float)
-                low, high = np.nanmin(values, axis=0), np.nanmax(values, axis=0)
-                hatch = {"alpha": 0.35} if mesh["element"] == "compt" else {"alpha": 0.12}
-                axes.fill_between(over, low, high, color=colour, lw=0, **hatch)
-                axes.plot(over, values[1], "-" if mesh["element"] == "compt" else "--", color=colour, lw=1.0,
-                          label=f"{mesh['element'].upper()}, {mesh['pattern'].replace('_', ' ')}")
+                if (mesh["wave"], mesh["nu"]) == (kind, nu):
+                    axes.plot(over, np.array(mesh["over_wavelength"]["22.5"], dtype=float),
+                              "-" if mesh["element"] == "compt" else "--", color=MESH_COLOUR[mesh["pattern"]],
+                              label=f"{mesh['element'].upper()}, {mesh['pattern'].replace('_', ' ')}")
             axes.axhline(1, color=GREY, lw=0.6)
-            axes.set(ylim=(0.4, 1.4 if nu == 0.3 else 2.0))
-            style.panel_label(axes, f"{kind} wave, ν = {nu:g}")
-    for axes in curves[-1]:
+            axes.set(ylim=(0.4, 2.0 if (kind, nu) == ("S", 0.49) else 1.2))
+            style.panel_label(axes, f"{kind} wave, ν = {nu:g}, 22.5° from x")
+    for axes in grid[-1]:
         axes.set_xlabel("h/λ, h the sub-edge")
-    for axes in curves[:, 0]:
-        axes.set_ylabel("c_h/c; bands: directions")
-    handles, labels = curves[0, 0].get_legend_handles_labels()
-    rows[1].legend(handles, labels, loc="outside lower center", ncol=3, fontsize=7)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("c_h/c")
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncol=3, fontsize=7)
     style.save(figure, path)

@@ -1,7 +1,7 @@
 """The schemes that are compared: their keys in `[integrator]`, the order and the limit of omega dt that they are known for."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 TABLES = {  # of Runge-Kutta, by kind: order
@@ -29,9 +29,7 @@ class Scheme:
     order: int | None           # None: it varies
     setting: str = "dt"
     explicit: bool = False
-    solves: bool = True         # Newton's method to a tolerance, whose default is too loose for small errors
     title: str = ""             # in figures
-    remarks: dict[str, str] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
@@ -39,7 +37,7 @@ class Scheme:
 
 
 def _fixed(name: str, family: str, order: int, explicit: bool = False, title: str = "", **keys: Any) -> Scheme:
-    return Scheme(name, family, keys, order, "dt", explicit, not explicit, title)
+    return Scheme(name, family, keys, order, "dt", explicit, title)
 
 
 def _explicit() -> list[Scheme]:
@@ -73,7 +71,7 @@ def _runge_kutta() -> list[Scheme]:
 
 def _to_a_tolerance() -> list[Scheme]:
     def adaptive(name: str, title: str, order: int | None = None, **keys: Any) -> Scheme:
-        return Scheme(name, "to a tolerance", keys, order, "rtol", False, True, title)
+        return Scheme(name, "to a tolerance", keys, order, "rtol", False, title)
 
     return [
         adaptive("cvode_adams", "CVODE Adams", type="cvode", method="adams"),
@@ -100,5 +98,8 @@ def fixed() -> list[Scheme]:
     return [scheme for scheme in SCHEMES.values() if scheme.setting == "dt"]
 
 
-def adaptive() -> list[Scheme]:
-    return [scheme for scheme in SCHEMES.values() if scheme.setting == "rtol"]
+def representatives() -> list[Scheme]:
+    """One or two of each kind, for figures and for the quick study."""
+    return [SCHEMES[name] for name in (
+        "central_difference", "noh_bathe", "verlet_mclachlan_5_velocity", "dormand_prince_7_4_5", "fehlberg_13_7_8", "newmark",
+        "generalized_alpha", "bathe_0", "esdirk547l2sa_7_4_5", "cvode_adams", "cvode_bdf", "ida")]

@@ -6,7 +6,7 @@ from pathlib import Path
 from studies.common.decks import Deck
 from studies.integrators.comparisons import TIGHT, WITH_NEWTON
 from studies.integrators.problems import impact
-from studies.integrators.schemes import SCHEMES
+from studies.integrators.schemes import SCHEMES, representatives
 
 FOLDER = Path(__file__).parent
 RTOL = 1e-7
@@ -92,11 +92,14 @@ STEPS = {"touch": 600, "splitting": 390, "cantilever": 1500, "discs": 600}    # 
 PROBLEMS = {"touch": touch, "splitting": splitting, "cantilever": cantilever, "discs": discs}
 
 
-def deck(name: str) -> Deck:
+WITH_BOUNDS = ("touch", "splitting")    # the quick study has every scheme on these alone
+
+
+def deck(name: str, profile: str) -> Deck:
     result = PROBLEMS[name]()
     t_end = result["run"]["t_end"]
     schemes = []
-    for scheme in SCHEMES.values():
+    for scheme in (SCHEMES.values() if profile == "full" or name in WITH_BOUNDS else representatives()):
         keys = dict(scheme.integrator)
         keys |= {"rtol": RTOL} if scheme.setting == "rtol" else {"dt": t_end / STEPS[name]}
         if keys["type"] in WITH_NEWTON:

@@ -26,7 +26,7 @@ GROWTH_OF_PAIRS = 1e-4          # where a double eigenvalue on the unit circle p
 GROWING_AT = (0.5, 1.0)         # omega dt at which tables without a limit are looked at
 LARGEST = 6.0                   # omega dt of schemes without a limit
 LARGEST_WITHOUT_LIMIT = 1.5     # of explicit tables that always grow
-FINER = (1.0, 0.15)             # of the largest omega dt: two runs span the frequencies
+PARTS = {"full": (1.0, 0.15), "quick": (0.5,)}  # of the largest omega dt: two runs span the frequencies
 TOLERANCES = {"full": (1e-4, 1e-6), "quick": (1e-4,)}
 LONG = 0.02                     # s, of runs with steps of their own choice: 8 to 35 periods
 
@@ -89,12 +89,12 @@ def stability(program: str, profile: str, folder: Path) -> dict[str, Any]:
     return found
 
 
-def of_equal_steps(program: str, scheme: Scheme, modes: Modes, folder: Path) -> list[dict[str, float]]:
+def of_equal_steps(program: str, profile: str, scheme: Scheme, modes: Modes, folder: Path) -> list[dict[str, float]]:
     """Of every mode: omega dt, period elongation, damping ratio, as measured and by theory."""
     limit = limit_of(scheme)
     largest = LARGEST if limit == inf else LARGEST_WITHOUT_LIMIT if limit == 0 else 0.98 * limit
     points = []
-    for part in FINER:
+    for part in PARTS[profile]:
         dt = part * largest / float(modes.omega[-1])
         course = equal_steps(program, "square", modes, scheme.integrator, dt, STEPS, folder)
         if isinstance(course, str):
@@ -132,7 +132,7 @@ def main(program: str, profile: str, out: str) -> None:
         modes = modes_of(program, "square", folder)
         for scheme in SCHEMES.values():
             if scheme.setting == "dt":
-                found["steps"][scheme.name] = of_equal_steps(program, scheme, modes, folder)
+                found["steps"][scheme.name] = of_equal_steps(program, profile, scheme, modes, folder)
                 continue
             for rtol in TOLERANCES[profile]:
                 course = run(program, "square", modes, scheme.integrator | {"rtol": rtol}, LONG, 1e-12, folder)

@@ -28,7 +28,7 @@ DENSITY = 1000.0
 RATIOS = (0.3, 0.49)            # Poisson's
 PLOTTED = (4.0, 6.0, 10.0)      # wavelengths over h, of curves over direction
 DIRECTIONS = {"full": 5, "quick": 15}                       # degrees between two
-WAVELENGTHS = np.geomspace(3.0, 40.0, 25)                   # over h
+WAVELENGTHS = np.geomspace(2.5, 40.0, 25)                   # over h; 20 among them
 AXES = (0.0, 22.5, 45.0, 90.0, 135.0)                       # degrees, of curves over wavelength
 RUN_MODE, RUN_CELLS, RUN_PERIODS = 3, 4, 12                 # of the standing wave: half waves along the patch
 

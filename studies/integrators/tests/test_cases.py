@@ -25,7 +25,7 @@ class Schemes(unittest.TestCase):
         self.assertEqual(re.findall(r'"(\w+)"', listed), list(COMPOSITIONS))
 
     def test_EveryDeck_HasEveryScheme(self):
-        for name, deck in decks("quick").items():
+        for name, deck in decks("full").items():
             listed = {entry["name"] for entry in deck["compare"]["scheme"]}
             self.assertLessEqual(set(SCHEMES), listed, name)
 
