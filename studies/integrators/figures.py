@@ -50,6 +50,13 @@ def precision(compared: Compared, path: Path) -> None:
     style.save(figure, path)
 
 
+def _part_families(axes: plt.Axes, names: list[str]) -> None:
+    """A line between the rows of one family and the next."""
+    for row in range(1, len(names)):
+        if SCHEMES[names[row]].family != SCHEMES[names[row - 1]].family:
+            axes.axhline(row - 0.5, color=GREY, lw=0.6)
+
+
 def orders(summary: dict[str, Any], path: Path) -> None:
     """Observed orders, a row for each scheme of fixed steps; open through contact."""
     schemes = fixed()
@@ -64,6 +71,7 @@ def orders(summary: dict[str, Any], path: Path) -> None:
     through = [summary["details"]["order"][scheme.name]["impact"] for scheme in schemes]
     axes.plot(through, rows, "x", ms=5, color=RED, label="through contact (impact)")
     axes.set_yticks(rows, [scheme.label for scheme in schemes], fontsize=6.5)
+    _part_families(axes, [scheme.name for scheme in schemes])
     axes.set(xlabel="observed order; grey: documented ± 0.15", ylim=(len(schemes) - 0.5, -0.5), xlim=(-0.5, 9))
     axes.legend(loc="lower right", fontsize=7)
     style.save(figure, path)
@@ -139,6 +147,7 @@ def energy(compared: Compared, path: Path) -> None:
     axes.grid(False)
     axes.set_xticks(range(len(problems)), problems, rotation=30, ha="right")
     axes.set_yticks(range(len(names)), [SCHEMES[name].label for name in names], fontsize=6.5)
+    _part_families(axes, names)
     for i, j in np.argwhere(np.isnan(values)):
         axes.text(j, i, "refused", ha="center", va="center", fontsize=5.5, color=GREY)
     figure.colorbar(image, ax=axes, label="energy left over in the end/largest entry of the ledger", shrink=0.6)

@@ -24,7 +24,7 @@ class Scheme:
     """One scheme. `setting` is the key that its accuracy is chosen with: dt of fixed steps, rtol of adaptive ones."""
 
     name: str
-    family: str
+    family: str                 # those of one stand together in figures
     integrator: dict[str, Any]
     order: int | None           # None: it varies
     setting: str = "dt"
@@ -91,7 +91,6 @@ def _to_a_tolerance() -> list[Scheme]:
 
 
 SCHEMES = {scheme.name: scheme for scheme in _explicit() + _implicit() + _runge_kutta() + _to_a_tolerance()}
-FAMILIES = list(dict.fromkeys(scheme.family for scheme in SCHEMES.values()))
 
 
 def fixed() -> list[Scheme]:
