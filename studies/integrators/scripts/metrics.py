@@ -11,9 +11,10 @@ from scipy.optimize import brentq
 
 import numpy as np
 
+from studies.common.bounds import SKIPPED
 from studies.common.results import read_summary, read_table
 from studies.integrators import analysis, comparisons, through_events
-from studies.integrators.problems import IMPACT_GAP, IMPACT_SPEED, PROBLEMS
+from studies.integrators.problems import IMPACT_GAP, IMPACT_SPEED, PROBLEMS, SAMPLES
 from studies.integrators.schemes import SCHEMES, fixed
 from studies.common.spectrum import growth_rate
 
@@ -34,8 +35,8 @@ def orders(compared: dict[str, Runs], floors: dict[str, float]) -> dict[str, dic
         if scheme.order is None:
             continue
         for name, problem in PROBLEMS.items():
-            step = problem.interval / (problem.resolved * 0.4)  # omega dt of about 2: what order 8 takes
-            value = analysis.order(compared[name].get(scheme.name, []), floors[name], step, problem.deck["run"]["t_end"])
+            fewest = 0.4 * problem.resolved * SAMPLES   # omega dt of about 2 for the highest frequency
+            value = analysis.order(compared[name].get(scheme.name, []), floors[name], problem.largest_error, fewest)
             found.setdefault(scheme.name, {})[name] = value
     return found
 
@@ -106,6 +107,7 @@ def collect(profile: str) -> dict[str, Any]:
     steps = json.loads((MEASURED / "steps.json").read_text())
     waves = json.loads((MEASURED / "waves.json").read_text())
     smooth = [name for name, problem in PROBLEMS.items() if problem.smooth]
+    plain = [name for name in smooth if not PROBLEMS[name].stiff]
     floors = {name: analysis.disagreement(compared[name]) for name in PROBLEMS}
     order = orders(compared, floors)
     failed = [entry for name, runs in compared.items() for entry in analysis.failures(runs, name)]
@@ -116,10 +118,14 @@ def collect(profile: str) -> dict[str, Any]:
                      if scheme in SCHEMES and analysis.middle(of_scheme).status == "done"} for name in PROBLEMS}
 
     metrics: dict[str, Any] = {
-        f"observed_order_{scheme.name}": farthest([order[scheme.name][name] for name in smooth], scheme.order)
+        f"observed_order_{scheme.name}": farthest([order[scheme.name][name] for name in plain], scheme.order)
         for scheme in fixed()}
-    metrics |= {f"observed_order_{name}": farthest([order[name][problem] for problem in smooth], scheme.order)
+    metrics |= {f"observed_order_{name}": farthest([order[name][problem] for problem in plain], scheme.order)
                 for name, scheme in SCHEMES.items() if scheme.setting == "rtol" and scheme.order}
+    stiff = {scheme.name: order[scheme.name]["square"] for scheme in fixed()}
+    metrics |= {f"stiff_order_{name}": value for name, value in stiff.items()}
+    metrics["stiff_order_error_max"] = max((abs(value - SCHEMES[name].order) for name, value in stiff.items()
+                                            if math.isfinite(value)), default=SKIPPED)
     metrics |= {f"contact_order_{scheme.name}": order[scheme.name]["impact"] for scheme in fixed()}
     for name, entry in steps["stability"].items():
         if entry["theory"] > 0:
@@ -156,6 +162,7 @@ def collect(profile: str) -> dict[str, Any]:
                 for scheme, value in of_scheme.items()}
     details = {"order": order, "floor": floors, "failed": failed, "late": instants_late,
                "growth_rate": growing, "disc_energy_kept": restitution(compared["discs"]), "stability": steps["stability"]}
+    metrics = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in metrics.items()}
     return {"study": "integrators", "status": "done", "extent": profile, "metrics": metrics, "details": details,
             "written": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
 
