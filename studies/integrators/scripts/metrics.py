@@ -1,6 +1,4 @@
 """Workflow step: the metrics of the study from its comparisons and measurements, into summary.json. README.md defines each."""
-from __future__ import annotations
-
 import json
 import math
 import time
