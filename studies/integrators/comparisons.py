@@ -10,7 +10,7 @@ from studies.integrators.theory import stability_limit
 
 # Steps between two samples over `resolved` of the problem. What is of high order falls below the reference's error soon.
 REFINEMENTS = {1: (16.0, 32.0, 64.0), 2: (4.0, 8.0, 16.0), 3: (2.0, 4.0, 8.0), 4: (1.0, 2.0, 4.0), 5: (1.5, 2.2, 3.3),
-               6: (2.0, 2.5, 3.1), 8: (0.9, 1.15, 1.45)}
+               6: (2.2, 2.8, 3.5), 8: (0.9, 1.15, 1.45)}
 TOLERANCES = (1e-4, 1e-6, 1e-8)
 TOLERANCES_OF_ORDER_2 = (1e-4, 1e-5, 1e-6)      # tighter ones take tens of thousands of steps
 NEWTON = 1e-12          # force out of balance: far below the errors that are measured

@@ -46,7 +46,7 @@ def precision(compared: Compared, path: Path) -> None:
         axes.set_xlabel("evaluations of forces")
     grid[1, 2].axis("off")
     handles, labels = grid[0, 0].get_legend_handles_labels()
-    grid[1, 2].legend(handles, labels, loc="center", fontsize=7)
+    grid[1, 2].legend(handles, labels, loc="center", fontsize=7, handlelength=3.5)
     style.save(figure, path)
 
 
@@ -111,7 +111,7 @@ def flutter(summary: dict[str, Any], path: Path) -> None:
 
 def events(compared: Compared, summary: dict[str, Any], path: Path) -> None:
     """Instants of events against the tolerance; errors through contact against steps."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 3.4), width_ratios=(1, 1.25))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.6), width_ratios=(1, 1.25))
     late = summary["details"]["late"]
     kinds = {"splitting": ("opening, mesh that splits", BLUE, "o"), "touch": ("touch of two bars", ORANGE, "s"),
              "cantilever": ("opening, cantilever, from the median", GREEN, "^")}
@@ -121,12 +121,12 @@ def events(compared: Compared, summary: dict[str, Any], path: Path) -> None:
     left.axhline(10, color=RED, lw=0.8)
     left.text(1, 13, "asked", color=RED, fontsize=8)
     left.set(xlabel="schemes, by their error", ylabel="error of the instant/tolerance", ylim=(5e-9, 100))
-    left.legend(fontsize=6.5, loc="lower right")
+    left.legend(fontsize=6.5, loc="upper left", bbox_to_anchor=(0.0, -0.16))
     for scheme, (colour, marker, line) in SHOWN.items():
         done = sorted((run.steps, run.error) for run in compared["impact"][scheme] if run.status == "done")
         right.loglog(*zip(*done), line, marker=marker, ms=3.5, color=colour, label=SCHEMES[scheme].label)
     right.set(xlabel="steps", ylabel="error of u and v, impact")
-    right.legend(fontsize=5.8, loc="lower left", ncol=1)
+    right.legend(fontsize=6.5, loc="upper left", bbox_to_anchor=(-0.1, -0.16), ncol=2, handlelength=3)
     style.save(figure, path)
 
 
@@ -149,6 +149,7 @@ def energy(compared: Compared, path: Path) -> None:
     axes.set_yticks(range(len(names)), [SCHEMES[name].label for name in names], fontsize=6.5)
     _part_families(axes, names)
     for i, j in np.argwhere(np.isnan(values)):
-        axes.text(j, i, "refused", ha="center", va="center", fontsize=5.5, color=GREY)
+        runs = compared[problems[j]].get(names[i])
+        axes.text(j, i, runs[0].status if runs else "not run", ha="center", va="center", fontsize=5.5, color=GREY)
     figure.colorbar(image, ax=axes, label="energy left over in the end/largest entry of the ledger", shrink=0.6)
     style.save(figure, path)

@@ -41,13 +41,13 @@ def _fixed(name: str, family: str, order: int, explicit: bool = False, title: st
 
 
 def _explicit() -> list[Scheme]:
-    found = [_fixed("central_difference", "leapfrog", 2, True, type="central_difference")]
+    found = [_fixed("central_difference", "leapfrog", 2, True, type="central_difference"),
+             _fixed("noh_bathe", "leapfrog", 2, True, "Noh-Bathe, p = 0.54", type="noh_bathe")]
     for composition, order in COMPOSITIONS.items():
         for form in ("velocity", "position"):
             found.append(_fixed(f"verlet_{composition}_{form}", "Verlet", order, True,
                                 f"Verlet {composition.replace('_', ' ')}, {form}",
                                 type="verlet", composition=composition, form=form))
-    found.append(_fixed("noh_bathe", "leapfrog", 2, True, "Noh-Bathe, p = 0.54", type="noh_bathe"))
     return found
 
 
