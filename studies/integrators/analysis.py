@@ -19,8 +19,8 @@ LEAST_SETTINGS = 2
 
 # What a scheme is refused for, or fails for, and why: the scheme, the problem and what the message says as patterns. Everything
 # else that fails is a finding.
-KINK = ("ARKODE's Newton method takes three iterations; where bodies first touch or a side opens forces have a kink, and a fixed step "
-        "cannot be made shorter")
+KINK = ("ARKODE's Newton method takes three iterations; where bodies first touch or a side opens forces have a kink, and a "
+        "fixed step cannot be made shorter")
 EXPLAINED = [
     (r"verlet_(yoshida_3|suzuki_5|mclachlan_5)_.*", "splitting|cantilever", "back in time",
      "takes steps back in time: cracks cannot be undone, the program refuses it"),

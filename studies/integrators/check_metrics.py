@@ -29,7 +29,7 @@ def bounds() -> dict[str, Bound]:
             asked = (limit * (1 - LIMIT), limit * (1 + LIMIT))
             found[f"stability_limit_{scheme.name}"] = Bound(asked, asked)
     return found | {
-        # What is stiff keeps a few per cent of the motion in frequencies that are barely resolved. The quick study has one setting.
+        # What is stiff keeps some of the motion in frequencies that are barely resolved. The quick study has one setting.
         "stiff_order_error_max": Bound(0.3, 0.3, may_skip=True),
         "stability_limit_error_max": Bound(LIMIT, LIMIT),
         # eigenvalues of a step against theory; modes of the same run leave 1e-7 in each other at most

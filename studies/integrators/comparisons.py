@@ -25,7 +25,7 @@ WITH_NEWTON = ("newmark", "generalized_alpha", "hht_alpha", "bathe")
 
 
 def solved_tightly(keys: Deck, explicit: bool) -> Deck:
-    """The keys, and Newton's method to far less than the errors that are measured. With fixed steps ARKODE's rtol says how far."""
+    """The keys, and Newton's method to far less than the errors that are measured: of ARKODE's fixed steps rtol says how far."""
     if keys["type"] in WITH_NEWTON:
         return keys | {"tolerance": NEWTON}
     return keys | {"rtol": NEWTON} if keys["type"] == "arkode" and not explicit else keys

@@ -85,7 +85,8 @@ TOUCH_TOLERANCE = 1e-9
 
 def touch() -> Deck:
     result = impact().deck
-    return result | {"title": "integrators: two bars touch and part", "run": result["run"] | {"event_tolerance": TOUCH_TOLERANCE}}
+    return result | {"title": "integrators: two bars touch and part",
+                     "run": result["run"] | {"event_tolerance": TOUCH_TOLERANCE}}
 
 
 STEPS = {"touch": 600, "splitting": 390, "cantilever": 1500, "discs": 600}    # equal ones of fixed steps, all below every limit

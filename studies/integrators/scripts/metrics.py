@@ -147,8 +147,8 @@ def collect(profile: str) -> dict[str, Any]:
         "centre_growth_rate_min": min(growing["centre"].values()),
         "centre_growth_rate_reference": growing["centre"]["reference"],
         # explicit tables without a limit grow by themselves
-        "mean_growth_over_centre_max": max(rate for name, rate in growing["mean"].items() if f"growth_error_{name}" not in metrics)
-        / growing["centre"]["reference"],
+        "mean_growth_over_centre_max": max(rate for name, rate in growing["mean"].items()
+                                           if f"growth_error_{name}" not in metrics) / growing["centre"]["reference"],
         "standing_wave_difference_max": max(abs(entry["run"] / entry["bloch"] - 1) for entry in waves["standing"].values()),
     }
     for element in ("cst", "compt"):
