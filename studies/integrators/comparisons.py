@@ -50,7 +50,7 @@ def integrator(problem: Problem, scheme: Scheme, quick: bool) -> Deck:
     numbers = resolved_steps(problem, scheme)
     beyond = () if limited(scheme) else problem.beyond
     if quick:
-        numbers, beyond = (numbers[1:] if problem.name in ("bar", "borehole") else numbers[:1]), beyond[:1]
+        numbers, beyond = (numbers[1:] if problem.exact else numbers[:1]), (beyond[:1] if problem.stiff else ())
     keys["dt"] = [problem.interval / n for n in [*beyond, *numbers]]
     return solved_tightly(keys, scheme.explicit)
 
