@@ -22,7 +22,7 @@ void FirstOrderForm::bind(const SemiDiscrete& system, double omega) {
     trial_.v.assign(layout.n_dof, 0.0);
     trial_.z.assign(layout.n_internal, 0.0);
     f_.assign(layout.n_dof, 0.0);
-    external_.assign(layout.n_dof, 0.0);
+    part_of_f_.assign(layout.n_dof, 0.0);
 }
 
 void FirstOrderForm::pack(const State& state, std::span<double> y) const {
@@ -48,18 +48,24 @@ void FirstOrderForm::rate(const SemiDiscrete& system, const State& accepted, dou
                           Part part, std::span<double> dydt) {
     unpack(system, t, y, trial_);
     const Trial trial = trial_of(trial_, accepted.last_event);
+    std::ranges::fill(dydt, 0.0);
     if (part == Part::external) {
-        std::ranges::fill(dydt, 0.0);
         system.external_force(trial, f_);
+    } else if (part == Part::interactions) {
+        system.interaction_force(accepted, trial, f_);
     } else {
         system.force(accepted, trial, f_);
         subtract_damping(system, trial_.v, f_);
-        std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(n_free()), n_free(), dydt.begin());
         if (n_internal_ > 0) system.internal_rate(accepted, trial, dydt.subspan(2 * n_free()));
     }
-    if (part == Part::rest) {
-        system.external_force(trial, external_);
-        for (std::size_t i = 0; i < f_.size(); ++i) f_[i] -= external_[i];
+    if (part == Part::all || part == Part::rest || part == Part::interactions)
+        std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(n_free()), n_free(), dydt.begin());
+    if (part == Part::rest || part == Part::without_interactions) {
+        if (part == Part::rest)
+            system.external_force(trial, part_of_f_);
+        else
+            system.interaction_force(accepted, trial, part_of_f_);
+        for (std::size_t i = 0; i < f_.size(); ++i) f_[i] -= part_of_f_[i];
     }
     const auto mass = system.lumped_mass();
     for (std::size_t i = 0; i < n_free(); ++i) dydt[n_free() + i] = f_[free_[i]] / mass[free_[i]];

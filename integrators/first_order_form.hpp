@@ -12,8 +12,14 @@ namespace gneiss {
 
 class FirstOrderForm {
 public:
-    /// What of the forces is wanted, for additive schemes.
-    enum class Part { all, external, rest };
+    /// What of the rates is wanted, for additive and multirate schemes.
+    enum class Part {
+        all,
+        external,             ///< the external forces
+        rest,                 ///< all but these
+        interactions,         ///< u' = v, and the forces of interactions
+        without_interactions  ///< all but these
+    };
 
     /// @param omega  upper bound of the natural frequencies, rad/s
     void bind(const SemiDiscrete& system, double omega);
@@ -29,7 +35,7 @@ public:
     void pack(const State& state, std::span<double> y) const;
     /// @param[out] to  u, v, z and t
     void unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to);
-    /// F(t, y), or the part of it that comes from the external forces alone, or the rest.
+    /// F(t, y), or a part of it.
     /// @throws RecoverableError if the forces do
     void rate(const SemiDiscrete& system, const State& accepted, double t, std::span<const double> y, Part part,
               std::span<double> dydt);
@@ -44,7 +50,7 @@ private:
     std::size_t n_internal_ = 0;
     PrescribedMotion motion_;
     State trial_;
-    std::vector<double> f_, external_;
+    std::vector<double> f_, part_of_f_;
 };
 
 }  // namespace gneiss

@@ -74,6 +74,8 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
     next_.z.assign(layout.n_internal, 0.0);
     next_.history.assign(layout.n_history, 0.0);
     for (auto* values : {&a_, &a_next_, &f_}) values->assign(layout.n_dof, 0.0);
+    if (options_.rtol > 0)
+        for (auto* values : {&at_end_, &at_end_next_, &scratch_}) values->assign(layout.n_dof, 0.0);
     reactions_.assign(system.constraints().size(), 0.0);
     motion_.bind(system, omega_);
 }
@@ -96,6 +98,7 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
     ++newton_.counts().evaluations;
     motion_.reactions(system, state.v, f_, reactions_);
     motion_.accelerations(system, state.v, f_, a_);
+    if (options_.rtol > 0) at_end_ = a_;
 }
 
 StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, double t_stop) {
@@ -114,6 +117,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
         std::string why = "the error is too large";
         try {
             solve(system, state, dt);
+            arrive(system, state);
             const double e = adaptive ? error(dt) : 0;
             if (e <= 1) {
                 finish_step(system, state);
@@ -132,6 +136,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
     }
     std::swap(state, next_);
     a_.swap(a_next_);
+    at_end_.swap(at_end_next_);
     scales_.include(state);
     report.t = state.t;
     report.n_force = counts().evaluations - evaluations_before;
@@ -151,7 +156,7 @@ double GeneralizedAlpha::error(double dt) const {
     const double sum = ordered_sum(free.size(), partial_, [&](std::size_t first, std::size_t last) {
         double part = 0;
         for (std::size_t i = first; i < last; ++i) {
-            const double e = factor * (a_next_[free[i]] - a_[free[i]]);
+            const double e = factor * (at_end_next_[free[i]] - at_end_[free[i]]);
             part += e * e;
         }
         return part;
@@ -210,9 +215,15 @@ void GeneralizedAlpha::solve(const SemiDiscrete& system, const State& state, dou
                   a_next_);
 }
 
-void GeneralizedAlpha::finish_step(const SemiDiscrete& system, const State& state) {
+void GeneralizedAlpha::arrive(const SemiDiscrete& system, const State& state) {
     system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, next_.z, next_.history);
     ++newton_.counts().evaluations;
+    if (options_.rtol == 0) return;
+    std::ranges::copy(f_, scratch_.begin());
+    motion_.accelerations(system, next_.v, scratch_, at_end_next_);
+}
+
+void GeneralizedAlpha::finish_step(const SemiDiscrete& system, const State& state) {
     system.add_path_energies(state, next_);
     const auto constraints = system.constraints();
     for (std::size_t k = 0; k < constraints.size(); ++k)
@@ -229,7 +240,11 @@ double GeneralizedAlpha::kinetic_energy(const SemiDiscrete& system, const State&
 double GeneralizedAlpha::matrix_bytes() const { return newton_.bytes(); }
 
 IntegratorMemory GeneralizedAlpha::save() const {
-    return {{"acceleration", a_}, {"reactions", reactions_}, {"scales", scales_.save()}, {"step", {dt_, omega_}}};
+    return {{"acceleration", a_},
+            {"acceleration_at_end", at_end_},
+            {"reactions", reactions_},
+            {"scales", scales_.save()},
+            {"step", {dt_, omega_}}};
 }
 
 void GeneralizedAlpha::forget(const SemiDiscrete&, State&) { newton_.forget(); }
@@ -243,6 +258,7 @@ void GeneralizedAlpha::load(const SemiDiscrete& system, State&, const Integrator
     scales_.load(system, take("scales", 3));
     allocate(system);
     a_ = take("acceleration", a_.size());
+    at_end_ = take("acceleration_at_end", at_end_.size());
     reactions_ = take("reactions", reactions_.size());
 }
 

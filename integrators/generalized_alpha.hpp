@@ -78,7 +78,10 @@ private:
     void predict(const SemiDiscrete& system, const State& state, double dt);
     /// next_ and stage_ from the accelerations a_next_.
     void place(const State& state, double dt);
-    /// Local error over its tolerance.
+    /// Forces, and what they leave, at the end of a step that is solved.
+    void arrive(const SemiDiscrete& system, const State& state);
+    /// Local error over its tolerance. By the forces at both ends: the stage at which forces are in balance may be
+    /// short of a contact that the end of the step is deep in.
     double error(double dt) const;
     /// The next step after one of length dt <= limit, from its error.
     void choose_next_step(double dt, double limit, double error);
@@ -93,6 +96,7 @@ private:
     State next_, stage_;
     std::vector<double> a_, a_next_;  ///< accelerations, prescribed ones included
     std::vector<double> f_;
+    std::vector<double> at_end_, at_end_next_, scratch_;  ///< M^-1 (f - C v) at the ends of a step; of adaptive ones
     std::vector<double> reactions_;
     mutable std::vector<double> partial_;
 };

@@ -189,7 +189,7 @@ SundialsOde::Counts SundialsOde::counts() const {
 
 int SundialsOde::rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector dydt) {
     return guard_([&] {
-        ++counts_.rates;
+        ++(part == FirstOrderForm::Part::interactions ? counts_.interaction_rates : counts_.rates);
         form_.rate(*system_, *accepted_, t, values_of(y), part, values_of(dydt));
     });
 }

@@ -29,6 +29,7 @@ public:
     };
     struct Counts {
         std::size_t steps = 0, rates = 0, rejected = 0;
+        std::size_t interaction_rates = 0;  ///< of interactions alone, which `rates` leaves out
         std::size_t linearisations = 0, factorisations = 0, solves = 0;
 
         void add(const NewtonSystem::Counts& more) {
@@ -44,7 +45,7 @@ public:
     std::span<const double> reactions() const final { return reactions_; }
     WorkCounts work() const final {
         const Counts all = counts();
-        return {all.linearisations, all.factorisations, all.solves};
+        return {all.linearisations, all.factorisations, all.solves, all.interaction_rates};
     }
     double matrix_bytes() const final { return newton_ ? newton_->bytes() : 0; }
     IntegratorMemory save() const final;

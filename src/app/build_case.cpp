@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "base/errors.hpp"
 #include "contact/make_contact.hpp"
@@ -77,18 +79,64 @@ void need_supports(const Mesh& mesh, const SolidSystem::Parts& parts) {
                          "too few supports for a static solution, which leaves free " + describe(free, mesh));
 }
 
-/// @throws InputError for gas that would change with time where there is none
-void need_lasting_gas(const CaseOptions& options) {
+/// @throws InputError where a gas ends at a plane of symmetry that nothing holds its wall to
+void need_planes_of_symmetry(const CaseOptions& options, const Mesh& mesh, std::span<const Constraint> constraints) {
     std::vector<Problem> problems;
-    for (std::size_t i = 0; i < options.lumped.size(); ++i)
-        for (const auto& [given, key] :
-             {std::pair(options.lumped[i].leak > 0, "leak"), {options.lumped[i].burn.has_value(), "burn"}})
+    for (std::size_t i = 0; i < options.lumped.size(); ++i) {
+        const LumpedOptions& gas = options.lumped[i];
+        if (!gas.about || !mesh.boundaries.contains(gas.on)) continue;
+        std::map<std::int32_t, int> leaves;  // edges that leave a node, less those that arrive
+        for (const BoundaryEdge& edge : mesh.boundaries.at(gas.on)) {
+            ++leaves[edge.a];
+            --leaves[edge.b];
+        }
+        std::erase_if(leaves, [](const auto& one) { return one.second == 0; });
+        const std::string where = fmt::format("[[lumped]] {}", i + 1);
+        if (leaves.size() > 2) problems.push_back({where, fmt::format("on = \"{}\": is in several pieces", gas.on)});
+        for (const auto& [node, count] : leaves) {
+            const Point2 x = mesh.nodes[static_cast<std::size_t>(node)];
+            const double length = distance(x, *gas.about);
+            constexpr double aligned = 1e-9;
+            // the component along the normal of the plane; of one that is inclined both
+            const std::array along{std::abs(x[0] - (*gas.about)[0]), std::abs(x[1] - (*gas.about)[1])};
+            for (std::size_t c = 0; c < 2; ++c)
+                if (along[1 - c] > aligned * length &&
+                    !std::ranges::binary_search(constraints, 2 * static_cast<std::size_t>(node) + c, {},
+                                                &Constraint::dof))
+                    problems.push_back(
+                        {where, fmt::format("about: the wall ends at ({:.6g}, {:.6g}) m, on a plane of symmetry that "
+                                            "nothing holds it to: a [[boundary]] must give its displacement along {}",
+                                            x[0], x[1], c == 0 ? "x" : "y")});
+        }
+    }
+    if (!problems.empty()) throw InputError(problems);
+}
+
+/// @throws InputError for gas that would change with time where there is none, and masses that nothing holds
+void need_static_models(const CaseOptions& options) {
+    std::vector<Problem> problems;
+    for (std::size_t i = 0; i < options.lumped.size(); ++i) {
+        const LumpedOptions& model = options.lumped[i];
+        if (model.kind == LumpedOptions::Kind::mass && !model.bonded && model.gap > 0 && model.ground_stiffness == 0)
+            problems.push_back({fmt::format("[[lumped]] {}", i + 1),
+                                "gap: nothing holds a mass that touches nothing, and a static solution has no way to "
+                                "let it fall; give ground_stiffness, bonded = true, or no gap"});
+        for (const auto& [given, key] : {std::pair(model.leak > 0, "leak"), {model.burn.has_value(), "burn"}})
             if (given)
                 problems.push_back({fmt::format("[[lumped]] {}", i + 1),
                                     fmt::format("{}: has no meaning under integrator.type = \"{}\", whose time is that "
                                                 "of the loads",
                                                 key, options.integrator.type)});
+    }
     if (!problems.empty()) throw InputError(problems);
+}
+
+/// @throws InputError if the scheme is made for what the case has not
+void need_interactions(const CaseOptions& options) {
+    if (options.integrator.type == "mri" && options.fracture.method == FractureOptions::Method::none &&
+        options.contact.method == ContactOptions::Method::none)
+        throw InputError("integrator.type",
+                         "`mri` takes joints and contact in short steps, and there are neither: take `arkode`");
 }
 
 /// What is given and has no effect where nothing moves.
@@ -145,6 +193,7 @@ Case build_case(CaseOptions options) {
     collect(problems, [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness); });
     collect(problems, [&] { parts.models = make_lumped(*built.mesh, options.lumped, options.solid.thickness); });
     collect(problems, [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries); });
+    collect(problems, [&] { need_planes_of_symmetry(options, *built.mesh, parts.constraints.constraints()); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(*built.mesh, options.initial); });
     collect(problems, [&] {
         parts.damping.blocks = absorbing_damping(*built.mesh, options.boundaries,
@@ -183,12 +232,13 @@ Case build_case(CaseOptions options) {
         });
     parts.damping.mass_proportional = options.run.mass_damping;
     collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
+    collect(problems, [&] { need_interactions(options); });
     collect(problems, [&] { built.probes = ProbeTable(*built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
     if (joints) parts.interactions.push_back(std::move(joints));
     for (auto& one : contacts) parts.interactions.push_back(std::move(one));
     if (built.integrator->is_static()) {
-        need_lasting_gas(options);
+        need_static_models(options);
         need_supports(*built.mesh, parts);
     }
 

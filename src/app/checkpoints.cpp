@@ -24,6 +24,11 @@ std::string layout_fingerprint(const Mesh& mesh, const SolidSystem& system) {
         blocks.insert(blocks.end(), {block->n_elements(), block->n_internal(), block->n_history()});
     std::uint64_t sum = fingerprint(bytes(mesh.connectivity), fingerprint(bytes(mesh.nodes)));
     sum = fingerprint(bytes(blocks), fingerprint(bytes(mesh.region), sum));
+    for (std::size_t i = 0; i < system.models().size(); ++i) {
+        const LumpedModel& model = system.models()[i];
+        const std::vector<std::uint64_t> unknowns{model.n_internal(), model.point() ? 1U : 0U};
+        sum = fingerprint(bytes(unknowns), fingerprint(model.name(), sum));
+    }
     return fmt::format("{:016x}", sum);
 }
 
@@ -75,6 +80,7 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
     const Vector& values = checkpoint.get<Vector>("state.path", targets.size());
     for (std::size_t k = 0; k < targets.size(); ++k) *targets[k] = values[k];
     apply_due_events(*built.system, state);  // all have happened, but what they found is not saved
+    renew_events(*built.system, state);
 
     IntegratorMemory memory;
     constexpr std::string_view prefix = "integrator.";

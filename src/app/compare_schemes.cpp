@@ -225,7 +225,10 @@ ComparedRun Comparison::carry_out_one(std::size_t number) {
                                             '\n');
     }
     ComparedRun result = read_run(folder);
-    if (result.status == "refused") result.message = why_refused(deck);
+    if (result.status == "refused")
+        result.message = ended_with == exit_code::bad_input
+                             ? why_refused(deck)
+                             : fmt::format("the process ended before its first step, exit code {}", ended_with);
     if (result.status == name_of(RunStatus::running)) {
         result.status = name_of(RunStatus::failed);
         result.message = fmt::format("the process ended without a word, exit code {}: out of memory?", ended_with);

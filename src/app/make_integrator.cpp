@@ -11,6 +11,7 @@
 #include "integrators/dynamic_relaxation.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/mri.hpp"
 #include "integrators/noh_bathe.hpp"
 #include "integrators/quasi_static.hpp"
 #include "integrators/verlet.hpp"
@@ -102,6 +103,13 @@ std::unique_ptr<Integrator> make_arkode(const IntegratorOptions& o) {
     return std::make_unique<Arkode>(options);
 }
 
+std::unique_ptr<Integrator> make_mri(const IntegratorOptions& o) {
+    auto options = to_a_tolerance<Mri::Options>(o);
+    options.table = o.slow_table;
+    options.dt = o.dt;
+    return std::make_unique<Mri>(options);
+}
+
 std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
     auto options = to_a_tolerance<Ida::Options>(o);
     options.max_order = o.max_order;
@@ -150,6 +158,7 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
     if (is_alpha(o)) return make_alpha(o);
     if (o.type == "cvode") return make_cvode(o);
     if (o.type == "arkode") return make_arkode(o);
+    if (o.type == "mri") return make_mri(o);
     if (o.type == "ida") return make_ida(o);
     throw std::logic_error("no integrator " + o.type);
 }

@@ -213,6 +213,8 @@ bool Run::after_step(const StepReport& step) {
     if (schedule_->frame_due(step)) write_frame();
     if (states_ && schedule_->state_due(step)) states_->add(*case_.system, state_);
     if (schedule_->checkpoint_due(step)) {
+        if (renew_events(*case_.system, state_) == EventOutcome::resize)
+            case_.integrator->start(*case_.system, state_, StartReason::resize);
         write_checkpoint();
         case_.integrator->forget(*case_.system, state_);
         log_->info("checkpoint: step = {}, t = {:.9g}", progress_.step, step.t);

@@ -18,6 +18,7 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
     summary.groups["work"] = {{"steps", now.step - now.first_step},    {"rejected", now.n_rejected},
                               {"force_evaluations", now.n_force},      {"jacobians", work.jacobians},
                               {"factorisations", work.factorisations}, {"iterations", work.iterations}};
+    if (work.interactions > 0) summary.groups["work"]["interaction_evaluations"] = work.interactions;
     if (built.cracking != nullptr) {
         std::vector<double> cracks;
         add_crack_columns(*built.cracking, now.state, cracks);

@@ -99,13 +99,25 @@ double Contact::largest_motion(std::span<const double> u) const {
 
 bool Contact::look(const State& accepted) {
     const auto u = bonded(accepted.u);
-    const double moved = largest_motion(u), way = std::max(0.0, moved - moved_), dt = accepted.t - looked_at_;
+    const double moved = largest_motion(u), way = std::max(0.0, moved - moved_);
+    const double dt = accepted.t - looked_at_.value_or(accepted.t);
     moved_ = moved;
     looked_at_ = accepted.t;
-    longest_dt_ = std::max(longest_dt_, dt);
-    // The next step may be as long as any before it, and go a little further.
+    // The next step may be as long as any of the last ones, and go a little further.
+    constexpr double forgotten = 0.05;  // a step
+    longest_dt_ = std::max((1 - forgotten) * longest_dt_, dt);
     const double next = dt > 0 ? way * (longest_dt_ / dt) : way;
-    if (moved + 2 * next <= 0.5 * options_.skin) return false;
+    return moved + 2 * next > 0.5 * options_.skin && search_at(u);
+}
+
+bool Contact::renew(const State& accepted) {
+    looked_at_ = accepted.t;
+    longest_dt_ = 0;
+    return search_at(bonded(accepted.u));
+}
+
+/// @return whether the candidates have changed
+bool Contact::search_at(std::span<const double> u) {
     std::ranges::copy(u.first(searched_.size()), searched_.begin());
     const std::vector<ContactCandidate> before = candidates_.pairs;
     search();

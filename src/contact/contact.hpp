@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -64,6 +65,7 @@ public:
                 PathEnergies& energies) override;
     bool watches() const override { return true; }
     bool look(const State& accepted) override;
+    bool renew(const State& accepted) override;
     std::vector<std::array<std::int32_t, 2>> couplings() const override;
     /// Without friction it is the second derivative of an energy.
     bool symmetric() const override { return options_.friction == 0; }
@@ -95,6 +97,7 @@ private:
     using AcceptedMemory = ContactMemory<const double>;
 
     void search();
+    bool search_at(std::span<const double> u);
     // In what follows displacements are those of the bonded nodes.
     double largest_motion(std::span<const double> u) const;
     std::span<const double> bonded(std::span<const double> u_of_mesh) const {
@@ -131,7 +134,8 @@ private:
     std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
     std::size_t n_searches_ = 0;
     double moved_ = 0;                                 ///< largest way of a node since then, at the last look, m
-    double looked_at_ = 0, longest_dt_ = 0;            ///< time of the last look, longest step so far, s
+    std::optional<double> looked_at_;                  ///< time of the last look, s
+    double longest_dt_ = 0;                            ///< of the last steps, s
     std::vector<TargetConstants> targets_;             ///< by triangle
     std::vector<PointConstants> points_;               ///< by contactor point
     mutable std::vector<std::size_t> first_coupling_;  ///< of each candidate, in couplings()

@@ -249,6 +249,11 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
     add_shared(f);
 }
 
+void ElementForces::add_company_force(const State& accepted, const Trial& trial, std::span<double> f,
+                                      const Interactions& interactions) const {
+    for_each_chunk([&](std::size_t c, const Chunk&) { interactions.add_chunk_force(c, accepted, trial, f, {}); });
+}
+
 void ElementForces::prepare_scratch() const {
     const auto n_threads = static_cast<std::size_t>(omp_get_max_threads());
     if (scratch_.size() < n_threads) scratch_.resize(n_threads);

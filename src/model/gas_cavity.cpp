@@ -173,18 +173,22 @@ auto GasCavity::updated(const Contents<double>& from, double volume_from, const 
         const T e = from.e * exp(-dt * mean_rate);
         return Contents<T>{T(kept * from.a) + kept_half * (heat * (T(from.e) - e)), e};
     };
-    // To the fixed point: a step back then undoes a step, which compositions of order 4 stand on. Where a step is so
-    // long that there is none to be found, whatever stands in the end is of order 2 still.
-    T after(before);
+    const auto rate_after = [&](const T& guess) {
+        return burning_rate(pressure(burn(0.5 * (T(before) + guess)).a, volume_to));
+    };
+    // To the fixed point: a step back then undoes a step, which compositions of order 4 stand on. In steps so long that
+    // it is not found the first correction, of order 2 as well.
+    const T once = rate_after(T(before));
+    T after = once;
     constexpr int most_iterations = 30;
     constexpr double digits = 1e-15;
-    for (int i = 0, left = most_iterations; i < left; ++i) {
-        const T next = burning_rate(pressure(burn(0.5 * (T(before) + after)).a, volume_to));
+    for (int i = 0; i < most_iterations; ++i) {
+        const T next = rate_after(after);
         const bool settled = std::abs(plain(next) - plain(after)) <= digits * plain(next);
         after = next;
-        if (settled) left = std::min(left, i + 2);  // once more for derivatives
+        if (settled) return burn(0.5 * (T(before) + rate_after(after)));  // once more for derivatives
     }
-    return burn(0.5 * (T(before) + after));
+    return burn(0.5 * (T(before) + once));
 }
 
 void GasCavity::update_internal(const Trial& from, const Trial& to, std::span<double> z) const {

@@ -38,6 +38,12 @@ bool Interactions::look(const State& accepted) {
     return changed;
 }
 
+bool Interactions::renew(const State& accepted) {
+    bool changed = false;
+    for (const auto& one : all_) changed |= one->renew(accepted);
+    return changed;
+}
+
 void Interactions::follow(const Parting& parting, State& accepted) {
     std::vector<double> whole(accepted.history.begin(),
                               accepted.history.begin() + static_cast<std::ptrdiff_t>(starts_.front()));

@@ -82,6 +82,13 @@ public:
         return false;
     }
 
+    /// Event::renew() for it.
+    /// @return whether couplings() have changed
+    virtual bool renew(const State& accepted) {
+        (void)accepted;
+        return false;
+    }
+
     /// Pairs of nodes (a, b) where the force on a may depend on the displacement of b, in any order; a pair may occur
     /// more than once.
     virtual std::vector<std::array<std::int32_t, 2>> couplings() const = 0;
@@ -123,6 +130,8 @@ public:
     bool stirred(const State& state) const;
     /// Interaction::look() of all of them.
     bool look(const State& accepted);
+    /// Interaction::renew() of all of them.
+    bool renew(const State& accepted);
     /// Interaction::follow() of all of them; the state's history becomes theirs.
     void follow(const Parting& parting, State& accepted);
     std::size_t n_history() const { return starts_.back() - starts_.front(); }

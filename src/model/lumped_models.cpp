@@ -31,7 +31,10 @@ private:
 
 LumpedModels::LumpedModels(std::vector<std::unique_ptr<LumpedModel>> all, std::size_t z_offset)
     : all_(std::move(all)), starts_{z_offset} {
-    for (const auto& one : all_) starts_.push_back(starts_.back() + one->n_internal());
+    for (const auto& one : all_) {
+        assert(one->n_internal() <= LumpedModel::most_internal);
+        starts_.push_back(starts_.back() + one->n_internal());
+    }
 }
 
 void LumpedModels::place_points(std::size_t n_nodes) {

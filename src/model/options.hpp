@@ -226,9 +226,9 @@ struct IntegratorOptions {
     double rho_inf = 0.8, beta = 0.25, gamma = 0.5, alpha = 0.1;
     bool adaptive = false;  ///< to rtol
 
-    // cvode, arkode, ida: Cvode::Options, Arkode::Options, Ida::Options
+    // cvode, arkode, mri, ida: Cvode::Options, Arkode::Options, Mri::Options, Ida::Options
     bool adams = false, functional = false, stability_detection = true;
-    std::string table = "dormand_prince_7_4_5";
+    std::string table = "dormand_prince_7_4_5", slow_table = "mri_gark_erk33a";
     int max_order = 0;
     double rtol = 1e-6, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
 

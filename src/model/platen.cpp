@@ -57,15 +57,19 @@ void Platen::for_each_pressed(const Trial& at, Body body) const {
     for (std::size_t i = 0; i < touches_.size(); ++i) {
         const Touch& touch = touches_[i];
         const double depth = q - options_.gap - dot(direction_, at_node(at.u, touch.node));
-        if (!options_.bonded && depth < 0) continue;  // one that only just touches has its stiffness already
-        body(i, depth, depends_on_velocity() ? q_rate - dot(direction_, at_node(at.v, touch.node)) : 0.0);
+        const double rate = depends_on_velocity() ? q_rate - dot(direction_, at_node(at.v, touch.node)) : 0.0;
+        // one that only just touches has its stiffness already
+        if (!options_.bonded && depth < 0) continue;
+        const double spring = options_.stiffness * depth, damper = options_.damping * rate;
+        const bool lets_go = !options_.bonded && spring + damper < 0;  // the damper cannot pull
+        body(i, Push{depth, rate, spring, lets_go ? -spring : damper, lets_go});
     }
 }
 
 void Platen::add_force(const Trial& at, std::span<double> f) const {
     double sum = 0;
-    for_each_pressed(at, [&](std::size_t i, double depth, double rate) {
-        const double force = touches_[i].share * (options_.stiffness * depth + options_.damping * rate);
+    for_each_pressed(at, [&](std::size_t i, const Push& push) {
+        const double force = touches_[i].share * (push.spring + push.damper);
         const auto x = 2 * static_cast<std::size_t>(touches_[i].node);
         f[x] += force * direction_.x;
         f[x + 1] += force * direction_.y;
@@ -92,7 +96,8 @@ void Platen::derivative(const Trial& at, double between, double ground, std::spa
     const auto [x, y] = direction_;
     const std::size_t per_touch = moves() ? 3 : 1;  // in the order of couplings()
     double sum = ground;
-    for_each_pressed(at, [&](std::size_t i, double, double) {
+    for_each_pressed(at, [&](std::size_t i, const Push& push) {
+        if (push.lets_go) return;
         const double k = touches_[i].share * between;
         sum += k;
         auto* out = &df[per_touch * i];
@@ -140,24 +145,21 @@ void Platen::add_stiffness_bound(const Trial&, std::span<double> bound) const {
 double Platen::stored_energy(const Trial& at) const {
     const double q = displacement(at);
     double twice = moves() ? options_.ground_stiffness * q * q : 0;
-    for_each_pressed(at, [&](std::size_t i, double depth, double) {
-        twice += touches_[i].share * options_.stiffness * depth * depth;
-    });
+    for_each_pressed(at,
+                     [&](std::size_t i, const Push& push) { twice += touches_[i].share * push.spring * push.depth; });
     return 0.5 * twice;
 }
 
 double Platen::force(const Trial& at) const {
     double sum = 0;
-    for_each_pressed(at, [&](std::size_t i, double depth, double rate) {
-        sum += touches_[i].share * (options_.stiffness * depth + options_.damping * rate);
-    });
+    for_each_pressed(at,
+                     [&](std::size_t i, const Push& push) { sum += touches_[i].share * (push.spring + push.damper); });
     return sum;
 }
 
 double Platen::damping_power(const Trial& at) const {
     double sum = 0;
-    for_each_pressed(
-        at, [&](std::size_t i, double, double rate) { sum += touches_[i].share * options_.damping * rate * rate; });
+    for_each_pressed(at, [&](std::size_t i, const Push& push) { sum += touches_[i].share * push.damper * push.rate; });
     return sum;
 }
 

@@ -53,7 +53,12 @@ private:
     double displacement(const Trial& at) const;
     double velocity(const Trial& at) const;
     double driving_force(const Trial& at) const;
-    /// Calls body(i, d_i, d_i') for every node that is pushed.
+    struct Push {
+        double depth, rate;     ///< d_i, m, and d_i', m/s
+        double spring, damper;  ///< of the whole boundary, N
+        bool lets_go;           ///< the damper would pull, and does no more than hold the spring
+    };
+    /// Calls body(i, push) for every node that is touched.
     template <class Body>
     void for_each_pressed(const Trial& at, Body body) const;
     /// What it pushes the boundary with, N.

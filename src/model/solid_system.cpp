@@ -19,13 +19,16 @@ public:
     EventOutcome apply(State&) override { return EventOutcome::none; }
     bool watches() const override { return true; }
     bool stirred(const State& state) const override { return solid_.interactions_.stirred(state); }
-    EventOutcome look(State& accepted) override {
-        if (!solid_.interactions_.look(accepted) || !solid_.tangent_) return EventOutcome::none;
+    EventOutcome look(State& accepted) override { return outcome(solid_.interactions_.look(accepted)); }
+    EventOutcome renew(const State& accepted) override { return outcome(solid_.interactions_.renew(accepted)); }
+
+private:
+    EventOutcome outcome(bool couplings_changed) {
+        if (!couplings_changed || !solid_.tangent_) return EventOutcome::none;
         solid_.tangent_.reset();
         return EventOutcome::resize;
     }
 
-private:
     SolidSystem& solid_;
 };
 
@@ -159,6 +162,12 @@ void SolidSystem::external_force(const Trial& trial, std::span<double> f) const 
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
+void SolidSystem::interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+    std::ranges::fill(f, 0.0);
+    elements_.add_company_force(accepted, trial, f, interactions_);
+    interactions_.add_force(accepted, trial, f, {});
+}
+
 void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {
     elements_.internal_rate(accepted, trial, rate);
     models_.internal_rate(trial, rate);
@@ -178,9 +187,13 @@ const Tangent* SolidSystem::tangent() const {
 FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
     const ElementBlock::Rates rates = elements_.largest_rates(accepted);
     const double of_bonds = bond_omega_squared(accepted);
-    const LumpedModel::Rates of_models = models_.largest_rates(accepted, mass_);
-    return {std::sqrt(rates.omega_squared + of_bonds + of_models.omega_squared), rates.damping + of_models.damping,
+    return {std::sqrt(rates.omega_squared + of_bonds), rates.damping + models_.largest_rates(accepted, mass_).damping,
             of_bonds};
+}
+
+double SolidSystem::bond_omega_squared(const State& accepted) const {
+    return interactions_.omega_squared(accepted, Trial::of(accepted), mass_) +
+           models_.largest_rates(accepted, mass_).omega_squared;
 }
 
 void SolidSystem::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {

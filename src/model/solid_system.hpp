@@ -44,15 +44,14 @@ public:
     void force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival, std::span<double> f,
                           std::span<double> z, std::span<double> history) const override;
     void external_force(const Trial& trial, std::span<double> f) const override;
+    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const override;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
     void internal_weights(std::span<double> weights) const override;
     double smallest_length() const override { return smallest_edge_; }
     /// Made when it is first asked for: an explicit run has no use for it. Not by two threads at once.
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
-    double bond_omega_squared(const State& accepted) const override {
-        return interactions_.omega_squared(accepted, Trial::of(accepted), mass_);
-    }
+    double bond_omega_squared(const State& accepted) const override;
     /// Without follower pressures, whose stiffness is small beside that of elements.
     void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;

@@ -43,6 +43,13 @@ public:
     virtual bool has_indicator() const { return false; }
     virtual double indicator(const State&) const { return -1; }
 
+    /// Finds anew in this state what it has found on the way and no checkpoint holds (a search of contacts). Called
+    /// where a checkpoint is written and where one is taken up: both runs then go on alike.
+    virtual EventOutcome renew(const State& accepted) {
+        (void)accepted;
+        return EventOutcome::none;
+    }
+
     /// Changes the accepted state: the only place where topology may change.
     virtual EventOutcome apply(State& accepted) = 0;
 };

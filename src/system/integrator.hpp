@@ -38,11 +38,12 @@ struct StepColumn {
     std::string unit = {};
 };
 
-/// What an integrator has done beside evaluating forces, since it was made.
+/// What an integrator has done beside evaluating all forces, since it was made.
 struct WorkCounts {
     std::size_t jacobians = 0;       ///< tangents assembled
     std::size_t factorisations = 0;  ///< of matrices
     std::size_t iterations = 0;      ///< of Newton's method: each solves a linear system
+    std::size_t interactions = 0;    ///< evaluations of joints and contact alone, which StepReport::n_force leaves out
 };
 
 /// Where a step stands that takes many iterations.

@@ -52,7 +52,10 @@ public:
     /// A step as advance() takes it, which ends at the latest where an event is known to have happened.
     StepReport advance(State& state, double stop) {
         const double before = indicator_of(system_, state);
-        if (!(before < 0)) return integrator_.advance(system_, state, stop);
+        if (!(before < 0)) {
+            crossed_.reset();
+            return integrator_.advance(system_, state, stop);
+        }
         std::size_t n_rejected = 0, n_force = 0;
         for (;;) {
             const State start = state;
@@ -107,6 +110,12 @@ EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
             strongest = std::max(strongest, event->apply(state));
         if (event->watches()) strongest = std::max(strongest, event->look(state));
     }
+    return strongest;
+}
+
+EventOutcome renew_events(const SemiDiscrete& system, const State& state) {
+    EventOutcome strongest = EventOutcome::none;
+    for (const auto& event : system.events()) strongest = std::max(strongest, event->renew(state));
     return strongest;
 }
 

@@ -19,6 +19,10 @@ inline bool reached(double t, double time) {
 /// @return the strongest outcome
 EventOutcome apply_due_events(const SemiDiscrete& system, State& state);
 
+/// Event::renew() of all of them.
+/// @return the strongest outcome
+EventOutcome renew_events(const SemiDiscrete& system, const State& state);
+
 enum class MarchOutcome { finished, interrupted };
 
 struct March {

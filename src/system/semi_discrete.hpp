@@ -57,7 +57,7 @@ struct StoredEnergies {
 struct FrequencyBound {
     double omega = 0;         ///< upper bound of the natural frequencies, rad/s
     double damping_rate = 0;  ///< upper bound of the eigenvalues of M^-1 (-df/dv), 1/s: viscous stress, not C
-    double of_bonds = 0;      ///< what joints and contact contribute to omega^2, (rad/s)^2
+    double of_bonds = 0;      ///< what joints, contact, lumped models contribute to omega^2, (rad/s)^2
 };
 
 /// Displacements of a trial that are on their way.
@@ -119,6 +119,15 @@ public:
     /// The part of f that additive schemes may leave to their explicit half: what acts from outside and is not stiff.
     /// @param[out] f  overwritten, N, shape (n_dof)
     virtual void external_force(const Trial& trial, std::span<double> f) const = 0;
+
+    /// The part of f that parts of the solid exert on each other, joints and contact: stiff, of few nodes, and cheap
+    /// beside the rest. Multirate schemes take it in shorter steps.
+    /// @param[out] f  overwritten, N, shape (n_dof)
+    virtual void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+        (void)accepted;
+        (void)trial;
+        for (double& value : f) value = 0;
+    }
 
     /// z' = g(t, u, v, z) at the trial's own z. Linear in v but for a part that does not depend on it, as f is in z.
     /// @param[out] rate  overwritten, shape (n_internal)

@@ -13,12 +13,14 @@ namespace gneiss::test {
 using MakeIntegrator = std::function<std::unique_ptr<Integrator>(double dt)>;
 
 /// Of (u, v/omega) over a step of x'' = -omega^2 x, with dt = 1.
-inline Eigen::Matrix2d amplification(const MakeIntegrator& make, double omega) {
+/// @param interactions  part of omega^2 that stands for them
+inline Eigen::Matrix2d amplification(const MakeIntegrator& make, double omega, double interactions = 0) {
     Eigen::Matrix2d matrix;
     for (int column = 0; column < 2; ++column) {
         OscillatorModel model;
         model.mass = Vector{{1, 1}};
         model.stiffness = omega * omega * Matrix::Identity(2, 2);
+        model.interactions = interactions * model.stiffness;
         model.initial_u = Vector{{column == 0 ? 1.0 : 0.0, 0}};
         model.initial_v = Vector{{column == 1 ? omega : 0.0, 0}};
         model.bound = {1e-3 * omega, 0};  // a bound that lies, so that no step is refused
@@ -36,8 +38,11 @@ inline double spectral_radius(const Eigen::Matrix2d& matrix) { return matrix.eig
 
 /// omega dt from which on steps grow: by bisection after a scan upwards, so that it is the first such one.
 /// @param least  growth of a step that counts: a double eigenvalue of the unit circle is known to sqrt(eps)
-inline double stability_limit(const MakeIntegrator& make, double largest, double least = 1e-6) {
-    const auto grows = [&](double omega) { return spectral_radius(amplification(make, omega)) > 1 + least; };
+inline double stability_limit(const MakeIntegrator& make, double largest, double least = 1e-6,
+                              double interactions = 0) {
+    const auto grows = [&](double omega) {
+        return spectral_radius(amplification(make, omega, interactions)) > 1 + least;
+    };
     constexpr int n = 500;
     double stable = 0, unstable = largest;
     for (int i = 1; i <= n && stable < unstable; ++i) {

@@ -56,6 +56,7 @@ struct OscillatorModel {
     Vector initial_u, initial_v;                                   ///< m, m/s; empty: zero
     bool has_tangent = true;
     bool irreversible = false;  ///< as declared
+    Matrix interactions;        ///< part of K that stands for joints and contact, N/m; empty: half of it
     FrequencyBound bound;       ///< as reported; omega = 0: from K and D
 };
 
@@ -123,6 +124,11 @@ public:
         if (!model_.load) return;
         const Vector load = model_.load(trial.t, trial.last_event >= model_.switch_time);
         std::copy(load.data(), load.data() + load.size(), f.begin());
+    }
+    void interaction_force(const State&, const Trial& trial, std::span<double> f) const override {
+        const Vector force = model_.interactions.size() > 0 ? Vector(-model_.interactions * vector(trial.u))
+                                                            : Vector(-0.5 * model_.stiffness * vector(trial.u));
+        std::copy(force.data(), force.data() + force.size(), f.begin());
     }
     void internal_weights(std::span<double> weights) const override { std::ranges::fill(weights, 1.0); }
     void internal_rate(const State&, const Trial& trial, std::span<double> rate) const override {

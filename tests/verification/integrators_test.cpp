@@ -5,9 +5,13 @@
 #include <tuple>
 
 #include "integrators/arkode.hpp"
+#include "integrators/bathe.hpp"
 #include "integrators/cvode.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/mri.hpp"
+#include "integrators/noh_bathe.hpp"
+#include "integrators/verlet.hpp"
 #include "support/one_thread.hpp"
 #include "verification/everything.hpp"
 #include "verification/run_solid.hpp"
@@ -31,12 +35,30 @@ std::unique_ptr<Integrator> solver(typename Solver::Options options, double rtol
     return std::make_unique<Solver>(options);
 }
 
+std::unique_ptr<Integrator> verlet(double safety, Verlet::Form form, const char* composition) {
+    return std::make_unique<Verlet>(Verlet::Options{{.safety = safety}, form, composition});
+}
+
 // Errors: some hundred steps of a local error of rtol. Order 2 with fixed steps: as measured, and confirmed by halving
 // in the contract of integrators. Balance: implicit schemes damp the vibrations that their steps do not resolve, after
 // the jumps of loads, and the ledger says so.
 const Scheme schemes[] = {
     {"CentralDifference", 2e-3, 1e-3,
      [] { return std::make_unique<CentralDifference>(CentralDifference::Options{.safety = 0.05}); }},
+    {"VelocityVerlet", 2e-3, 1e-3, [] { return verlet(0.05, Verlet::Form::velocity, "single"); }},
+    {"PositionVerlet", 2e-3, 1e-3, [] { return verlet(0.05, Verlet::Form::position, "single"); }},
+    {"VelocityYoshida", 1e-4, 1e-5, [] { return verlet(0.2, Verlet::Form::velocity, "yoshida_3"); }},
+    {"PositionSuzuki", 1e-4, 1e-5, [] { return verlet(0.2, Verlet::Form::position, "suzuki_5"); }},
+    {"VelocityMcLachlan", 1e-4, 1e-5, [] { return verlet(0.2, Verlet::Form::velocity, "mclachlan_5"); }},
+    {"NohBathe", 2e-3, 1e-3, [] { return std::make_unique<NohBathe>(NohBathe::Options{{.safety = 0.05}}); }},
+    {"Bathe", 1e-2, 1e-2, [] { return std::make_unique<Bathe>(Bathe::Options{.rho_inf = 0, .dt = 4e-6}); }},
+    {"Multirate", 1e-4, 1e-4,
+     [] {
+         Mri::Options options;
+         options.table = "mri_gark_erk45a";
+         options.dt = 4e-6;
+         return solver<Mri>(options, 1e-8);
+     }},
     {"GeneralizedAlpha", 1e-2, 1e-2,
      [] {
          GeneralizedAlpha::Options options;

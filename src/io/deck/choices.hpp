@@ -103,7 +103,7 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
     {"expression", AmplitudeOptions::Kind::expression, "an expression of t, x and y"},
 }};
 
-inline const std::array<Choice<std::string>, 12> integrators{{
+inline const std::array<Choice<std::string>, 13> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
     {"verlet", "verlet", "explicit compositions of Störmer-Verlet steps, symmetric in time, order 2 or 4"},
     {"noh_bathe", "noh_bathe", "explicit, two sub-steps, order 2, damps frequencies near its limit (Noh and Bathe)"},
@@ -113,6 +113,7 @@ inline const std::array<Choice<std::string>, 12> integrators{{
     {"bathe", "bathe", "implicit, two sub-steps, order 2, damps high frequencies (Bathe)"},
     {"cvode", "cvode", "multistep formulas of variable order and step, to a tolerance (SUNDIALS)"},
     {"arkode", "arkode", "Runge-Kutta: explicit, implicit or both, to a tolerance or with fixed steps (SUNDIALS)"},
+    {"mri", "mri", "multirate: contact and joints in short steps, the rest in long fixed ones, explicit (SUNDIALS)"},
     {"ida", "ida", "BDF of the system in residual form, to a tolerance (SUNDIALS)"},
     {"quasi_static", "quasi_static", "equilibria under growing loads, by Newton's method; time is load time"},
     {"dynamic_relaxation", "dynamic_relaxation",
@@ -163,6 +164,12 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark437l2sa_7_3_4", "ark437l2sa_7_3_4", "additive, order 4"},
     {"ark548l2sa_8_4_5", "ark548l2sa_8_4_5", "additive, order 5"},
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
+}};
+
+inline const std::array<Choice<std::string>, 3> multirate_tables{{
+    {"mis_kw3", "mis_kw3", "order 3 (Knoth and Wolke)"},
+    {"mri_gark_erk33a", "mri_gark_erk33a", "order 3 (Sandu)"},
+    {"mri_gark_erk45a", "mri_gark_erk45a", "order 4 (Sandu)"},
 }};
 
 inline constexpr std::array<Choice<bool>, 2> verlet_forms{{

@@ -15,9 +15,9 @@ const Section<IntegratorOptions>& integrator_section() {
         alphas{{"type", {"generalized_alpha", "newmark", "hht_alpha"}}}, multistep{{"type", {"cvode", "ida"}}},
         stepped{{"type",
                  {"central_difference", "verlet", "noh_bathe", "generalized_alpha", "newmark", "hht_alpha", "bathe",
-                  "arkode"}}},
-        first_order{{"type", {"cvode", "arkode", "ida"}}},
-        controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "ida"}}},
+                  "arkode", "mri"}}},
+        first_order{{"type", {"cvode", "arkode", "mri", "ida"}}},
+        controlled{{"type", {"generalized_alpha", "newmark", "hht_alpha", "cvode", "arkode", "mri", "ida"}}},
         balanced{
             {"type", {"quasi_static", "dynamic_relaxation", "generalized_alpha", "newmark", "hht_alpha", "bathe"}}},
         limited{{"type",
@@ -41,7 +41,8 @@ const Section<IntegratorOptions>& integrator_section() {
               .only_for = stepped,
               .meaning = "fixed step. 0: explicit schemes take `safety` times the critical step, renewed as the mesh "
                          "deforms; arkode takes steps from its error estimate; generalized_alpha, newmark and "
-                         "hht_alpha need `adaptive`, where this is the first step; bathe needs it"}),
+                         "hht_alpha need `adaptive`, where this is the first step; bathe and mri, of its long steps, "
+                         "need it"}),
          choice("form", &I::position_form, verlet_forms,
                 {.only_for = verlet, .meaning = "where in a sub-step forces are taken"}),
          choice("composition", &I::composition, verlet_compositions,
@@ -72,6 +73,8 @@ const Section<IntegratorOptions>& integrator_section() {
          choice("table", &I::table, runge_kutta_tables,
                 {.only_for = {{"type", {"arkode"}}},
                  .meaning = "coefficients, as SUNDIALS names them: stages, embedded order, order"}),
+         choice("slow_table", &I::slow_table, multirate_tables,
+                {.only_for = {{"type", {"mri"}}}, .meaning = "coefficients of the long steps, as SUNDIALS names them"}),
          integer("max_order", &I::max_order,
                  {.range = closed(0, 12),
                   .only_for = multistep,
@@ -79,7 +82,8 @@ const Section<IntegratorOptions>& integrator_section() {
          number("rtol", &I::rtol,
                 {.range = half_open(0, 0.1),
                  .only_for = controlled,
-                 .meaning = "error of a step over the scale of displacement, velocity, stress; root mean square"}),
+                 .meaning = "error of a step, of mri a short one, over the scale of displacement, velocity, stress; "
+                            "root mean square"}),
          number("displacement_scale", &I::displacement_scale,
                 {.unit = "m",
                  .range = at_least(0),

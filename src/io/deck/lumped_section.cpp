@@ -26,6 +26,13 @@ void check_lumped(TableReader& table, LumpedOptions& lumped) {
         table.problem("direction", "has no length");
     if (lumped.kind == LumpedOptions::Kind::mass && table.given("amplitude") && !table.given("force"))
         table.problem("amplitude", "has no effect without `force`");
+    if (lumped.bonded && lumped.gap > 0)
+        table.problem("gap", "must be 0 where `bonded` is true: the bond would pull from the start");
+    if (lumped.kind == LumpedOptions::Kind::actuator && !table.failed("amplitude") && lumped.displacement != 0 &&
+        lumped.amplitude.kind == AmplitudeOptions::Kind::constant)
+        table.problem(
+            "amplitude",
+            "missing or constant, must begin at 0: the actuator would stand at its displacement at the start");
 }
 
 }  // namespace

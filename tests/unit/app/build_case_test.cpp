@@ -50,6 +50,16 @@ TEST(BuildCase, Mistakes_OfEveryPart_ComeInOneList) {
         EXPECT_THAT(error, HasSubstr(part));
 }
 
+TEST(BuildCase, Multirate_WithoutInteractions_IsRefused) {
+    CaseOptions options = square_options();
+    options.integrator.type = "mri";
+    options.integrator.dt = 1e-6;
+    EXPECT_THAT(error_of(options), HasSubstr("integrator.type: `mri` takes joints and contact in short steps, and "
+                                             "there are neither"));
+    options.contact.method = ContactOptions::Method::potential;
+    EXPECT_EQ(build_case(options).integrator->name(), "mri");
+}
+
 TEST(BuildCase, BadMaterial_AbsorbingBoundary_IsNotBlamed) {
     CaseOptions options = square_options();
     options.materials[0].regions = {"rock"};

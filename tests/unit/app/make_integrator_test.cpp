@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "integrators/arkode.hpp"
+#include "integrators/mri.hpp"
 #include "integrators/verlet.hpp"
 #include "io/deck/choices.hpp"
 
@@ -31,6 +32,15 @@ TEST(MakeIntegrator, VerletCompositions_AreThoseOfTheDeckWithTheirOrders) {
         EXPECT_EQ(deck::verlet_compositions[k].name, compositions[k].name);
         const std::string meaning(deck::verlet_compositions[k].meaning);
         EXPECT_NE(meaning.find(fmt::format("order {}", compositions[k].order)), std::string::npos) << meaning;
+    }
+}
+
+TEST(MakeIntegrator, MultirateTables_AreThoseOfTheDeckWithTheirOrders) {
+    const auto tables = multirate_tables();
+    ASSERT_EQ(tables.size(), deck::multirate_tables.size());
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        EXPECT_EQ(deck::multirate_tables[k].name, tables[k].name);
+        EXPECT_TRUE(deck::multirate_tables[k].meaning.starts_with(fmt::format("order {} (", tables[k].order)));
     }
 }
 

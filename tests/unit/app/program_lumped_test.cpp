@@ -98,6 +98,24 @@ TEST_F(ProgramLumped, Statics_RefuseWhatChangesWithTime) {
                       HasSubstr("[[lumped]] 1: burn: has no meaning")));
 }
 
+TEST_F(ProgramLumped, Statics_RefuseAMassThatNothingHolds) {
+    const Ended ended = run("out", {"--set", "integrator={ type = \"quasi_static\" }",
+                                    "lumped=[{ type = \"mass\", name = \"m\", on = \"top\", direction = [0, -1], "
+                                    "mass = 1, stiffness = 1e9, gap = 1e-3, force = 1 }]"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("gap: nothing holds a mass that touches nothing"));
+}
+
+TEST_F(ProgramLumped, GasAtAPlaneOfSymmetry_NeedsItsSupports) {
+    const std::string gas = "lumped=[{ type = \"gas\", name = \"g\", on = \"left\", pressure = 1e5, about = [-4, 0] }]";
+    const Ended ended =
+        run("out", {"--set", gas, "mesh={ generator = \"rectangle\", width = 1, height = 1, cells = [2, 2] }"});
+    EXPECT_EQ(ended.code, 2);
+    // the lower end stands on the fixed bottom
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("about: the wall ends at (0, 1) m"), HasSubstr("along x"),
+                                 HasSubstr("along y"), HasSubstr("2 problems")));
+}
+
 TEST_F(ProgramLumped, Matrices_HoldTheGasAsWell) {
     const auto form = [&](const std::string& lumped) {
         // u = x on every node: the hole grows by 1 + epsilon in either direction

@@ -225,5 +225,34 @@ TEST(ContactAlone, OneBody_DoesNotTouchItself) {
     EXPECT_TRUE(contact->overlaps(at_rest, 0).empty());
 }
 
+TEST(ContactSearch, TakenUpInFlight_SearchesNoMoreOftenThanBefore) {
+    // a step moves the upper square by a twentieth of the skin: a search every ten steps, less one for what comes next
+    const Contact* contact = nullptr;
+    ContactOptions options;
+    options.skin = 0.2;
+    const Mesh mesh =
+        test::together(test::rectangle(false, 1, 1, {1, 1}), test::moved(test::rectangle(false, 1, 1, {1, 1}), 0, 2));
+    test::Solid solid = test::touching_solid(mesh, options, {}, &contact);
+    const double step_length = 0.05 * contact->options().skin;
+    State state = solid.system->initial_state();
+    const auto fly = [&](int steps) {
+        const std::size_t before = contact->n_searches();
+        for (int step = 0; step < steps; ++step) {
+            state.t += 1e-4;
+            for (std::size_t i = 1; i < state.u.size(); i += 2)
+                state.u[i] += mesh.nodes[i / 2][1] > 1.5 ? step_length : 0.0;
+            apply_due_events(*solid.system, state);
+        }
+        return contact->n_searches() - before;
+    };
+    state.t = 5;  // a run that has been under way for long
+    renew_events(*solid.system, state);
+    const std::size_t first = fly(100);
+    EXPECT_LE(first, 15U);
+    EXPECT_GE(first, 9U);
+    renew_events(*solid.system, state);
+    EXPECT_LE(fly(100), first + 1);
+}
+
 }  // namespace
 }  // namespace gneiss

@@ -116,6 +116,18 @@ TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
     }
 }
 
+TEST_P(JointsInChunks, InteractionForce_IsWhatTheyAddToTheElements) {
+    const State at = moved(mixed);
+    std::vector<double> elements(at.u.size()), joined(at.u.size(), 1e300);
+    apart.system->force(apart.system->initial_state(), Trial::of(at), elements);
+    solid.system->interaction_force(rest, Trial::of(at), joined);
+    const std::vector<double> f = answer(at).f;
+    double scale = 0;
+    for (const double value : f) scale = std::max(scale, std::abs(value));
+    for (std::size_t i = 0; i < f.size(); ++i)
+        ASSERT_NEAR(elements[i] + joined[i], f[i], 1e-14 * scale) << i;  // other order of a dozen additions
+}
+
 TEST_P(JointsInChunks, Threads_AnyNumber_SameBits) {
     for (const double size : {elastic, mixed, softening}) {
         const State at = moved(size);

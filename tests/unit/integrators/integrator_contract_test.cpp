@@ -14,6 +14,7 @@
 #include "integrators/cvode.hpp"
 #include "integrators/generalized_alpha.hpp"
 #include "integrators/ida.hpp"
+#include "integrators/mri.hpp"
 #include "integrators/noh_bathe.hpp"
 #include "integrators/verlet.hpp"
 #include "support/one_thread.hpp"
@@ -74,6 +75,15 @@ std::vector<FixedScheme> fixed_schemes() {
                      return std::make_unique<Verlet>(Verlet::Options{{.safety = 1, .dt = dt}, form, composition.name});
                  }});
         }
+    }
+    for (const MultirateTable& table : multirate_tables()) {
+        schemes.push_back({table.name, table.order, 0.025, [&table](double dt) {
+                               Mri::Options options;
+                               options.table = table.name;
+                               options.dt = dt;
+                               options.rtol = 1e-13;  // of the fast part
+                               return std::make_unique<Mri>(options);
+                           }});
     }
     for (const RungeKuttaTable& table : runge_kutta_tables()) {
         // from where the leading error rules to where round-off is still far

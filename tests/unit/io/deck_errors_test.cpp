@@ -114,9 +114,14 @@ TEST(DeckErrors, LumpedModels) {
         {{"lumped=[{ type = \"mass\", " + platen + " }]"}, {"key `lumped[0].mass`: missing, must be a number > 0 kg"}},
         {{"lumped=[{ type = \"mass\", mass = 1, amplitude = \"heaviside\", " + platen + " }]"},
          {"key `lumped[0].amplitude`: has no effect without `force`"}},
-        {{"lumped=[{ type = \"actuator\", displacement = 1, damping = 1, " + platen + " }]"},
+        {{"lumped=[{ type = \"actuator\", displacement = 1, amplitude = { type = \"ramp\", end = 1 }, damping = 1, " +
+          platen + " }]"},
          {"key `lumped[0].damping`: only for `type` = \"mass\", here `type` is \"actuator\""}},
-        {{"lumped=[{ type = \"actuator\", displacement = 1, name = \"a\", on = \"top\", direction = [0, 0], "
+        {{"lumped=[{ type = \"actuator\", displacement = 1, bonded = true, gap = 1, " + platen + " }]"},
+         {"key `lumped[0].gap`: must be 0 where `bonded` is true: the bond would pull from the start",
+          "key `lumped[0].amplitude`: missing or constant, must begin at 0: the actuator would stand at its "
+          "displacement at the start"}},
+        {{"lumped=[{ type = \"actuator\", displacement = 0, name = \"a\", on = \"top\", direction = [0, 0], "
           "stiffness = 1 }]"},
          {"key `lumped[0].direction`: has no length"}},
     });
@@ -134,7 +139,7 @@ TEST(DeckErrors, UnknownKeysAndWords) {
          {"key `solid.element`: given \"CTS\", must be one of \"compt\", \"cst\", did you mean `cst`?"}},
         {{"integrator.type=rk4"},
          {"key `integrator.type`: given \"rk4\", must be one of \"central_difference\", \"verlet\", \"noh_bathe\", "
-          "\"generalized_alpha\", \"newmark\", \"hht_alpha\", \"bathe\", \"cvode\", \"arkode\", \"ida\", "
+          "\"generalized_alpha\", \"newmark\", \"hht_alpha\", \"bathe\", \"cvode\", \"arkode\", \"mri\", \"ida\", "
           "\"quasi_static\", \"dynamic_relaxation\""}},
         {{"integrator.type=quasi_static", "integrator.safety=0.5"},
          {"key `integrator.safety`: only for `type` = \"central_difference\", \"verlet\", \"noh_bathe\", here `type` "

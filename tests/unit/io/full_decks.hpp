@@ -307,6 +307,22 @@ t_end = 1
 )toml",
     R"toml(
 [mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
+type = "mri"
+slow_table = "mri_gark_erk45a"
+dt = 1e-5
+rtol = 1e-5
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
 file = "rock.geo"
 parameters = { lc = 0.1, n = 3 }
 [solid]

@@ -70,6 +70,30 @@ TEST(Platen, Pressed_PushesItsNodesAlongItsDirection) {
                                        -(6e4 + 1e4) * 0.01}));
 }
 
+TEST(Platen, FliesOffFasterThanTheSpringPushes_TheDamperDoesNotPull) {
+    const Platen platen = make(hammer());
+    std::vector<double> v_away = v;
+    v_away[8] = -200;  // 50 N s/m: the damper alone would pull with 10 kN, the spring pushes with 4.7 kN
+    const Trial away{1, 0, u, v_away, {}};
+    const std::vector<double> f = force(platen, away);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(f[i], 0) << i;
+    EXPECT_EQ(platen.quantities(away)[2].value, 0);
+    // what the spring gives back meanwhile the damper takes
+    Trial later = away;
+    const double dt = 1e-7;
+    std::vector<double> u_later = u;
+    for (std::size_t i = 0; i < u.size(); ++i) u_later[i] += dt * v_away[i];
+    later.t += dt;
+    later.u = u_later;
+    PathEnergies energies;
+    platen.add_path_energies(away, later, energies);
+    const auto spring = [&](const Trial& trial) {  // without that to the ground
+        const std::size_t q = 2 * static_cast<std::size_t>(point);
+        return platen.stored_energy(trial) - 0.5 * 1e4 * trial.u[q] * trial.u[q];
+    };
+    EXPECT_NEAR(energies.dampers, spring(away) - spring(later), 1e-6 * energies.dampers);  // the trapezoidal rule
+}
+
 TEST(Platen, Bonded_PullsAsWell) {
     LumpedOptions options = hammer();
     options.bonded = true;

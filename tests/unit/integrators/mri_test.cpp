@@ -1,0 +1,129 @@
+// What is the multirate methods' own: the fast part, what it costs, their messages.
+
+#include "integrators/mri.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "integrators/arkode.hpp"
+#include "support/amplification.hpp"
+#include "support/one_thread.hpp"
+#include "support/oscillator_problems.hpp"
+
+namespace gneiss {
+namespace {
+
+using testing::HasSubstr;
+
+Mri::Options with(const char* table, double dt, double rtol) {
+    Mri::Options options;
+    options.table = table;
+    options.dt = dt;
+    options.rtol = rtol;
+    return options;
+}
+
+/// Two nodes that a stiff contact of 300 rad/s holds together.
+test::OscillatorModel stiff_contact() {
+    test::OscillatorModel model = test::two_nodes();
+    const test::Vector normal{{1, 0.2, -1, -0.2}};
+    model.interactions = 5e4 * normal * normal.transpose();
+    model.stiffness += model.interactions;
+    model.initial_u = test::Vector{{0.1, 0, 0.1, 0}};
+    model.initial_v = test::Vector{{0.5, 0.3, 0.5, 0.3}};
+    model.load = test::smooth_load;
+    return model;
+}
+
+TEST(Mri, StiffInteractions_StepsFarAboveTheirLimit_AreAccurateWhereASingleRateMethodIsUnstable) {
+    const test::Oscillator system(stiff_contact());
+    ASSERT_GT(system.exact_bound().omega, 300);
+    const State exact = runge_kutta(system, test::oscillator_end, 2e-5);
+    constexpr double dt = 0.025;  // 7 or more in omega dt
+    for (const MultirateTable& table : multirate_tables()) {
+        Mri mri(with(table.name, dt, 1e-8));
+        EXPECT_LT(test::distance(test::march_oscillator(system, mri), exact), 2e-3) << table.name;
+    }
+    Arkode::Options single;
+    single.table = "zonneveld_5_3_4";
+    single.dt = dt;
+    Arkode arkode(single);
+    const State grown = test::march_oscillator(system, arkode);
+    EXPECT_FALSE(test::distance(grown, exact) < 1e3);
+}
+
+TEST(Mri, StiffInteractions_StepsThatResolveThem_ConvergeWithTheOrder) {
+    const test::Oscillator system(stiff_contact());
+    const State exact = runge_kutta(system, test::oscillator_end, 2e-5);
+    for (const MultirateTable& table : multirate_tables()) {
+        const auto error = [&](double dt) {
+            Mri mri(with(table.name, dt, 1e-12));
+            return test::distance(test::march_oscillator(system, mri), exact);
+        };
+        // order 4 falls faster here, and sooner into what the fast part's tolerance leaves
+        double dt = table.order == 3 ? 0.003125 : 0.00625, before = error(dt);
+        for (int halving = 0; halving < 2; ++halving) {
+            dt /= 2;
+            const double now = error(dt);
+            EXPECT_GT(std::log2(before / now), table.order - 0.15) << table.name << ", dt = " << dt;
+            before = now;
+        }
+    }
+}
+
+TEST(Mri, Limit_OfTheSlowPartAlone_IsTheTables) {
+    // as measured: integrators/README.md tells them
+    const double limits[] = {3.79, 2.63, 2.96};
+    for (std::size_t k = 0; k < multirate_tables().size(); ++k) {
+        const char* const name = multirate_tables()[k].name;
+        const double limit =
+            test::stability_limit([&](double dt) { return std::make_unique<Mri>(with(name, dt, 1e-10)); }, 6);
+        EXPECT_NEAR(limit, limits[k], 0.01) << name;
+    }
+}
+
+TEST(Mri, StiffInteractions_LoadsAndDamping_BalanceAgainstTheEnergy) {
+    test::OscillatorModel model = stiff_contact();
+    model.damping.mass_proportional = 0.4;
+    const test::Oscillator system(model);
+    for (const MultirateTable& table : multirate_tables()) {
+        Mri mri(with(table.name, 0.0125, 1e-8));
+        State state = system.initial_state();
+        const auto energy = [&] { return mri.kinetic_energy(system, state) + system.stored_energies(state).sum(); };
+        const double before = energy();
+        March march;
+        march.t_end = test::oscillator_end;
+        march.run(system, mri, state, false);
+        // some of the contact's vibration is between the ledger's two looks at a step
+        EXPECT_NEAR(energy() - before, state.path.external_work - state.path.damping,
+                    1e-2 * std::abs(state.path.external_work))
+            << table.name;
+    }
+}
+
+TEST(Mri, ForceEvaluations_AreThoseOfTheSlowPart) {
+    const test::Oscillator system(stiff_contact());
+    Mri mri(with("mri_gark_erk33a", 0.025, 1e-8));
+    State state = system.initial_state();
+    mri.start(system, state, StartReason::fresh);
+    mri.advance(system, state, 1);
+    const std::size_t fast_before = mri.work().interactions;
+    const StepReport step = mri.advance(system, state, 1);
+    EXPECT_LE(step.n_force, 6u);  // three stages, and those of the ledger and of full right sides
+    EXPECT_GT(mri.work().interactions - fast_before, 100u);  // 7 radians at six digits and more
+}
+
+TEST(Mri, Options_AreRefusedByName) {
+    for (const double dt : {0.0, -1.0, std::nan("")}) EXPECT_THROW(Mri(with("mis_kw3", dt, 1e-6)), InputError);
+    try {
+        Mri mri(with("mis", 0.1, 1e-6));
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("given `mis`, must be one of mis_kw3, mri_gark_erk33a, mri_gark_erk45a"));
+    }
+}
+
+}  // namespace
+}  // namespace gneiss
