@@ -21,7 +21,7 @@ Compared = dict[str, dict[str, list[Run]]]
 SHOWN = dict(zip((scheme.name for scheme in representatives()), [
     (BLUE, "o", "-"), (SKY, "v", "-"), (GREEN, "s", "-"), (ORANGE, "^", "-"), (RED, "D", "-"),
     (BLUE, "o", "--"), (SKY, "v", "--"), (PURPLE, "P", "--"), (ORANGE, "^", "--"),
-    (GREEN, "x", ":"), (RED, "+", ":"), (PURPLE, "*", ":")]))
+    (GREEN, "x", ":"), (RED, "+", ":"), (PURPLE, "*", ":"), ("#8C6D31", "h", "-")]))
 
 
 def precision(compared: Compared, path: Path) -> None:
@@ -45,7 +45,7 @@ def precision(compared: Compared, path: Path) -> None:
     for axes in [*grid[1, :2], grid[0, 2]]:
         axes.set_xlabel("evaluations of forces")
     grid[1, 2].axis("off")
-    handles, labels = grid[0, 0].get_legend_handles_labels()
+    handles, labels = grid[1, 0].get_legend_handles_labels()
     grid[1, 2].legend(handles, labels, loc="center", fontsize=7, handlelength=3.5)
     style.save(figure, path)
 
@@ -82,7 +82,9 @@ def stiff(compared: Compared, path: Path) -> None:
     problem = PROBLEMS["square"]
     figure, axes = plt.subplots(figsize=(style.FULL_WIDTH, 3.6))
     for scheme, (colour, marker, line) in SHOWN.items():
-        done = sorted((run.steps, run.error) for run in compared["square"][scheme] if run.status == "done")
+        done = sorted((run.steps, run.error) for run in compared["square"].get(scheme, []) if run.status == "done")
+        if not done:
+            continue
         axes.loglog(*zip(*[(problem.deck["run"]["t_end"] / steps * 1e6, error) for steps, error in done]), line,
                     marker=marker, ms=4, color=colour, label=SCHEMES[scheme].label)
     axes.axvline(problem.interval / problem.resolved * 1e6 / 0.8, color=GREY, lw=0.8)

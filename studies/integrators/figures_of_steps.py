@@ -13,8 +13,8 @@ from studies.common.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, pl
 from studies.integrators.schemes import SCHEMES
 
 PANELS = {  # of the dispersion figure: title and schemes
-    "explicit, order 2; Verlet": ["central_difference", "noh_bathe", "verlet_yoshida_3_velocity", "verlet_suzuki_5_velocity",
-                                  "verlet_mclachlan_5_velocity"],
+    "explicit; multirate": ["central_difference", "noh_bathe", "verlet_yoshida_3_velocity", "verlet_suzuki_5_velocity",
+                                  "verlet_mclachlan_5_velocity", "mis_kw3", "mri_gark_erk33a", "mri_gark_erk45a"],
     "Newmark and Bathe": ["newmark", "newmark_linear", "newmark_damped", "generalized_alpha", "generalized_alpha_0",
                           "hht_alpha", "bathe", "bathe_0"],
     "explicit Runge-Kutta": ["heun_euler_2_1_2", "knoth_wolke_3_3", "zonneveld_5_3_4", "sayfy_aburub_6_3_4", "cash_karp_6_4_5",
@@ -29,6 +29,7 @@ MESH_COLOUR = {"uniform_right": BLUE, "alternating": ORANGE, "crossed": GREEN}
 LEAST = 1e-9  # what modes of the same run leave in each other
 FORCES = {"central_difference": 1, "verlet_single_velocity": 1, "verlet_single_position": 1, "noh_bathe": 2,
           "verlet_yoshida_3_velocity": 3, "verlet_yoshida_3_position": 3, "verlet_suzuki_5_velocity": 5,
+          "mis_kw3": 4, "mri_gark_erk33a": 4, "mri_gark_erk45a": 6,  # of the long steps
           "verlet_suzuki_5_position": 5, "verlet_mclachlan_5_velocity": 5, "verlet_mclachlan_5_position": 5}
 
 

@@ -91,6 +91,8 @@ def run(program: str, mesh: str, modes: Modes, keys: dict[str, Any], t_end: floa
     what["run"]["t_end"] = t_end
     what["output"]["history"] = row
     what["integrator"] = keys
+    if keys["type"] == "mri":
+        what["contact"] = {"method": "potential", "friction": 0.0}  # there has to be some; nothing touches
     path = folder / "run.toml"
     write_deck(what, path)
     ended = subprocess.run([program, "run", str(path), "--out", str(folder / "run"), "--threads", "1", "--quiet"],

@@ -16,6 +16,8 @@ TABLES = {  # of Runge-Kutta, by kind: order
     "additive": {"ark324l2sa_4_2_3": 3, "ark436l2sa_6_3_4": 4, "ark437l2sa_7_3_4": 4, "ark548l2sa_8_4_5": 5,
                  "ark548l2sab_8_4_5": 5},
 }
+MULTIRATE = {"mis_kw3": 3, "mri_gark_erk33a": 3, "mri_gark_erk45a": 4}
+SHORT_STEPS = 1e-10     # rtol of the short steps: far below what the long ones do
 COMPOSITIONS = {"single": 2, "yoshida_3": 4, "suzuki_5": 4, "mclachlan_5": 4}
 
 
@@ -69,6 +71,11 @@ def _runge_kutta() -> list[Scheme]:
             for kind, tables in TABLES.items() for table, order in tables.items()]
 
 
+def _multirate() -> list[Scheme]:
+    return [_fixed(table, "multirate", order, True, f"MRI, {table.removeprefix('mri_')}", type="mri", slow_table=table,
+                   rtol=SHORT_STEPS) for table, order in MULTIRATE.items()]
+
+
 def _to_a_tolerance() -> list[Scheme]:
     def adaptive(name: str, title: str, order: int | None = None, **keys: Any) -> Scheme:
         return Scheme(name, "to a tolerance", keys, order, "rtol", False, title)
@@ -90,15 +97,21 @@ def _to_a_tolerance() -> list[Scheme]:
     ]
 
 
-SCHEMES = {scheme.name: scheme for scheme in _explicit() + _implicit() + _runge_kutta() + _to_a_tolerance()}
+SCHEMES = {scheme.name: scheme for scheme in _explicit() + _implicit() + _runge_kutta() + _multirate()
+           + _to_a_tolerance()}
 
 
 def fixed() -> list[Scheme]:
     return [scheme for scheme in SCHEMES.values() if scheme.setting == "dt"]
 
 
+def applicable(scheme: Scheme, deck: dict[str, Any]) -> bool:
+    """Whether the program takes the scheme on this deck: `mri` asks for contact or joints, its short steps."""
+    return scheme.integrator["type"] != "mri" or "contact" in deck or "fracture" in deck
+
+
 def representatives() -> list[Scheme]:
     """One or two of each kind, for figures and for the quick study."""
     return [SCHEMES[name] for name in (
         "central_difference", "noh_bathe", "verlet_mclachlan_5_velocity", "dormand_prince_7_4_5", "fehlberg_13_7_8", "newmark",
-        "generalized_alpha", "bathe_0", "esdirk547l2sa_7_4_5", "cvode_adams", "cvode_bdf", "ida")]
+        "generalized_alpha", "bathe_0", "esdirk547l2sa_7_4_5", "cvode_adams", "cvode_bdf", "ida", "mri_gark_erk45a")]

@@ -46,6 +46,44 @@ def butcher_table(name: str, implicit: bool) -> tuple[Array, Array]:
     return np.array([[table.A[i][j] for j in range(s)] for i in range(s)]), np.array([table.b[i] for i in range(s)])
 
 
+class _Coupling(ctypes.Structure):
+    """MRIStepCouplingMem of SUNDIALS 6, arkode/arkode_mristep.h."""
+
+    _fields_ = [("matrices", ctypes.c_int), ("stages", ctypes.c_int), ("q", ctypes.c_int), ("p", ctypes.c_int),
+                ("c", ctypes.POINTER(ctypes.c_double)),
+                ("W", ctypes.POINTER(ctypes.POINTER(ctypes.POINTER(ctypes.c_double)))),
+                ("G", ctypes.POINTER(ctypes.POINTER(ctypes.POINTER(ctypes.c_double))))]
+
+
+@lru_cache(maxsize=None)
+def coupling(name: str) -> tuple[Array, Array]:
+    """Explicit coupling matrices (k x s x s) and abscissae (s) of a multirate table of the library."""
+    load = ctypes.CDLL("libsundials_arkode.so").MRIStepCoupling_LoadTableByName
+    load.restype, load.argtypes = ctypes.POINTER(_Coupling), [ctypes.c_char_p]
+    kind, end = name[:-1], name[-1]
+    found = load(f"ARKODE_{kind.upper()}{end if end.isalpha() else end.upper()}".encode())
+    if not found:
+        raise ValueError(f"SUNDIALS has no table {name}")
+    table, s = found.contents, range(found.contents.stages)
+    return (np.array([[[table.W[k][i][j] for j in s] for i in s] for k in range(table.matrices)]),
+            np.array([table.c[i] for i in s]))
+
+
+def multirate(name: str, y: float) -> Array:
+    """Of (omega u, v): u' = v is the fast part, exact; accelerations are the slow one. From stage to stage, c h apart,
+    v' = sum_j sum_k W_kij tau^k a_j/c  [Sandu 2019, (2.4); SUNDIALS, MRIStep]."""
+    W, c = coupling(name)
+    u, v = [np.array([1.0, 0.0])], [np.array([0.0, 1.0])]
+    for i in range(1, len(c)):
+        length = (c[i] - c[i - 1]) * y
+        a = [-stage for stage in u]
+        once = sum(W[k, i, j] / (k + 1) * a[j] for k in range(len(W)) for j in range(i))
+        twice = sum(W[k, i, j] / ((k + 1) * (k + 2)) * a[j] for k in range(len(W)) for j in range(i))
+        u.append(u[-1] + length * v[-1] + length * y * twice)
+        v.append(v[-1] + y * once)
+    return np.array([u[-1], v[-1]])
+
+
 def stability_function(name: str, implicit: bool, z: complex) -> complex:
     """R(z) = 1 + z b (I - z A)^-1 1."""
     A, b = butcher_table(name, implicit)
@@ -134,6 +172,8 @@ def amplification(keys: dict[str, Any], y: float) -> Array | None:
         return newmark(y, (1 + alpha) ** 2 / 4, 0.5 + alpha, 0.0, alpha)
     if kind == "bathe":
         return bathe(keys.get("rho_inf", 0.8), y)
+    if kind == "mri":
+        return multirate(keys["slow_table"], y)
     if kind == "arkode":
         return None
     raise ValueError(f"no theory of {kind} with steps of its own choice")
@@ -182,5 +222,5 @@ def stability_limit(keys: dict[str, Any], explicit: bool, largest: float = 8.0) 
 @lru_cache(maxsize=None)
 def _stability_limit(items: tuple[tuple[str, Any], ...], explicit: bool, largest: float) -> float:
     keys = dict(items)
-    least = LEAST_GROWTH if keys["type"] == "arkode" else LEAST_GROWTH_OF_PAIRS
+    least = LEAST_GROWTH if keys["type"] in ("arkode", "mri") else LEAST_GROWTH_OF_PAIRS
     return first_unstable(lambda y: growth(keys, y, explicit) > least, largest)

@@ -58,7 +58,7 @@ class Stability:
         return float(np.max(np.abs(step_eigenvalues(course, -1, n_values(scheme))))) - 1
 
     def limit(self, scheme: Scheme, theory: float, bisections: int) -> dict[str, Any]:
-        least = GROWTH if scheme.integrator["type"] == "arkode" else GROWTH_OF_PAIRS
+        least = GROWTH if scheme.integrator["type"] in ("arkode", "mri") else GROWTH_OF_PAIRS
         stable, unstable = theory * (1 - BRACKET), theory * (1 + BRACKET)
         at_stable, at_unstable = self.growth(scheme, stable), self.growth(scheme, unstable)
         if at_stable > least or at_unstable <= least:

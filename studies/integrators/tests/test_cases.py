@@ -6,7 +6,7 @@ from pathlib import Path
 from studies.integrators.cases import decks
 from studies.integrators.comparisons import resolved_steps
 from studies.integrators.problems import BAR_CELLS, BAR_LENGTH, PROBLEMS, bar_frequency
-from studies.integrators.schemes import COMPOSITIONS, SCHEMES, TABLES, fixed
+from studies.integrators.schemes import COMPOSITIONS, MULTIRATE, SCHEMES, TABLES, applicable, fixed
 
 REFERENCE = (Path(__file__).parents[3] / "docs/deck.md").read_text()
 
@@ -20,6 +20,11 @@ class Schemes(unittest.TestCase):
         self.assertEqual(documented, {name: (kind, order) for kind, tables in TABLES.items()
                                       for name, order in tables.items()})
 
+    def test_MultirateTables_AreThoseOfTheProgram(self):
+        listed = REFERENCE[REFERENCE.index("\n`slow_table`:\n"):]
+        listed = listed[:listed.index("\n\n`")]
+        self.assertEqual({name: int(order) for name, order in re.findall(r'^- `"(\w+)"`: order (\d)', listed, re.M)}, MULTIRATE)
+
     def test_Compositions_AreThoseOfTheProgram(self):
         listed = re.search(r"\| `composition` \| one of \| – \| ([^|]*)\|", REFERENCE)[1]
         self.assertEqual(re.findall(r'"(\w+)"', listed), list(COMPOSITIONS))
@@ -27,7 +32,7 @@ class Schemes(unittest.TestCase):
     def test_EveryDeck_HasEveryScheme(self):
         for name, deck in decks("full").items():
             listed = {entry["name"] for entry in deck["compare"]["scheme"]}
-            self.assertLessEqual(set(SCHEMES), listed, name)
+            self.assertLessEqual({scheme.name for scheme in SCHEMES.values() if applicable(scheme, deck)}, listed, name)
 
 
 class Steps(unittest.TestCase):
