@@ -1,5 +1,6 @@
 #include "integrators/central_difference.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,18 @@
 #include "integrators/mass_and_damping.hpp"
 
 namespace gneiss {
-CentralDifference::CentralDifference(const Options& options) : step_(options, {}) { options.validate(); }
+CentralDifference::CentralDifference(const Options& options, int levels) : step_(options, {}), levels_(levels) {
+    std::vector<Problem> problems;
+    options.check(problems);
+    if (!(levels >= 1 && levels <= LocalSteps::most_levels))
+        problems.push_back(
+            {"integrator.levels", fmt::format("given {}, must be in [1, {}]", levels, LocalSteps::most_levels)});
+    if (options.lanczos && levels > 1)
+        problems.push_back({"integrator.bound",
+                            "`lanczos` bounds one step for all elements: with `levels` > 1 every "
+                            "element has to tell its own"});
+    if (!problems.empty()) throw InputError(problems);
+}
 
 void CentralDifference::allocate(const SemiDiscrete& system) {
     const Layout layout = system.layout();
@@ -22,6 +34,10 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
     next_.v.assign(layout.n_dof, 0.0);
     next_.z.assign(layout.n_internal, 0.0);
     next_.history.assign(layout.n_history, 0.0);
+    if (local_) n_local_ += local_->n_evaluated();
+    auto levels = levels_ > 1 ? system.levels(levels_) : nullptr;
+    local_ = levels ? std::make_unique<LocalSteps>(std::move(levels), system) : nullptr;
+    step_.take_levels(local_ ? &local_->levels() : nullptr, local_ ? LocalSteps::limit : StabilityLimit{});
     const auto constraints = system.constraints();
     absorbing_.clear();
     for (const AbsorbingNode& node : absorbing_nodes(system)) absorbing_.push_back({node, {}, {}});
@@ -52,6 +68,7 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     } else {
         system.force(state, Trial::of(state), a_);
     }
+    average(system, state, Trial::of(state));
     settle(system, state);
     for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];
     // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched, or of what
@@ -149,6 +166,11 @@ void CentralDifference::evaluate(const SemiDiscrete& system, const State& state)
         system.force_and_update(state, trial(), a_, next_.z, next_.history);
     else
         system.force(state, trial(), a_);
+    average(system, next_, trial());
+}
+
+void CentralDifference::average(const SemiDiscrete& system, const State& accepted, const Trial& at) {
+    if (local_) local_->average(system, accepted, at, step_.longest(), a_);
 }
 
 void CentralDifference::add_path_energies(const SemiDiscrete& system, const State& state) {
@@ -221,10 +243,12 @@ void CentralDifference::kick_on_and_evaluate(const SemiDiscrete& system, const S
     for (const std::size_t dof : special_) moved_.push_back({dof, next_.u[dof], next_.v[dof]});
     std::ranges::sort(moved_, {}, &Moved::dof);
     system.force_on_arrival(state, trial(), KickAndDrift(*this, state, dt_before), a_, next_.z, next_.history);
+    average(system, next_, trial());
 }
 
 void CentralDifference::synchronise(const SemiDiscrete& system, State& state, double dt_before) {
     system.force(state, Trial::of(state), a_);
+    average(system, state, Trial::of(state));
     for (const std::size_t dof : special_) next_.v[dof] = state.v[dof];
     for (std::size_t i = 0; i < a_.size(); ++i) state.v[i] = next_.v[i] - 0.5 * step_.dt() * inverse_mass_[i] * a_[i];
     for (const std::size_t dof : special_) state.v[dof] = next_.v[dof];

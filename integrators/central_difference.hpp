@@ -8,9 +8,11 @@
 // neighbours. Order 2, also in damping; absorbing boundaries are solved node by node. Reactions take the inertia of a
 // support as its mean over the step: exact where it does not accelerate, order 1 where it does.
 
+#include <memory>
 #include <vector>
 
 #include "integrators/absorbing_nodes.hpp"
+#include "integrators/local_steps.hpp"
 #include "integrators/stable_step.hpp"
 #include "system/integrator.hpp"
 
@@ -20,7 +22,8 @@ class CentralDifference final : public Integrator {
 public:
     using Options = StableStep::Options;
 
-    explicit CentralDifference(const Options& options);
+    /// @param levels  most lengths of local steps, [1, LocalSteps::most_levels]; 1: one step for all elements
+    explicit CentralDifference(const Options& options, int levels = 1);
 
     std::string name() const override { return "central_difference"; }
     void start(const SemiDiscrete& system, State& state, StartReason why) override;
@@ -30,6 +33,7 @@ public:
     /// 1/2 v(n-1/2) . M v(n+1/2): with it the leapfrog conserves the energy of a linear system to round-off.
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions() const override { return reactions_; }
+    WorkCounts work() const override { return {.elements = n_local_ + (local_ ? local_->n_evaluated() : 0)}; }
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
 
@@ -51,6 +55,8 @@ private:
     Trial trial() const { return {next_.t, next_.last_event, next_.u, next_.v, {}}; }
     /// f(n+1) into a_; z and history into next_.
     void evaluate(const SemiDiscrete& system, const State& state);
+    /// Of local steps: the mean of a_ over them, at what the forces in it were evaluated at.
+    void average(const SemiDiscrete& system, const State& accepted, const Trial& at);
     void kick(const SemiDiscrete& system, const State& state);
     /// On constrained and absorbing degrees of freedom: keeps v(n+1/2) and f(n+1), from which kick_special() makes
     /// v(n+1) and a(n+1).
@@ -82,6 +88,9 @@ private:
     };
 
     StableStep step_;
+    int levels_;
+    std::unique_ptr<LocalSteps> local_;  ///< null: one step for all elements
+    std::size_t n_local_ = 0;            ///< elements evaluated by earlier local_
     std::vector<double> inverse_mass_;
     std::vector<double> a_;       ///< acceleration at the accepted state; f while a step is under way
     std::vector<double> v_half_;  ///< v(n+1/2), kept where the force needs another velocity

@@ -39,7 +39,7 @@ void StableStep::Options::validate() const {
 
 void StableStep::evaluate_bound(const SemiDiscrete& system, const State& state) {
     const double before = critical_;
-    bound_ = system.frequency_bound(state);
+    bound_ = levels_ != nullptr ? levels_->bound(state) : system.frequency_bound(state);
     take_bound(system, state);
     const double change = std::abs(critical_ - before) / critical_;
     if (options_.bound_interval > 0)
@@ -77,7 +77,7 @@ void StableStep::start(const SemiDiscrete& system, const State& state, StartReas
     } else if (anew) {
         bound_interval_ = 0;
         evaluate_bound(system, state);
-        if (dt_ == 0) dt_ = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+        if (dt_ == 0) dt_ = longest();
     } else if (options_.bound_interval == 0) {
         // what has been switched on may deform the solid soon; the count of steps goes on, so that frequent switches
         // do not put the next look off for ever
@@ -96,10 +96,10 @@ void StableStep::plan(const SemiDiscrete& system, const State& state, double t_s
         throw RecoverableError(
             fmt::format("the fixed step dt = {:.6g} s exceeds the critical step {:.6g} s at t = {:.9g} s", options_.dt,
                         critical_, state.t));
-    const double remaining = t_stop - state.t, limit = options_.dt > 0 ? options_.dt : options_.safety * critical_;
+    const double remaining = t_stop - state.t;
     // equal steps up to the next stop; a remainder of round-off is no step of its own
     constexpr double round_off = 1e-9;
-    dt_ = remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
+    dt_ = remaining / std::max(1.0, std::ceil(remaining / longest() - round_off));
 }
 
 void StableStep::save(IntegratorMemory& memory) const {

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "system/integrator.hpp"
+#include "system/levels.hpp"
 
 namespace gneiss {
 
@@ -36,6 +37,11 @@ public:
     };
 
     StableStep(const Options& options, const StabilityLimit& limit) : options_(options), limit_(limit) {}
+    /// From here on the bound is that of steps of elements' own lengths, null: of one step for all.
+    void take_levels(const Levels* levels, const StabilityLimit& limit) {
+        levels_ = levels;
+        limit_ = limit;
+    }
 
     /// Where a run starts or starts anew, before supports are put where they belong.
     /// @param damping_rate  of C, 1/s, where the scheme's stability depends on it: added to the bound's
@@ -51,6 +57,8 @@ public:
     /// Whether plan() will look at the bound.
     bool look_due() const { return steps_since_bound_ >= bound_interval_; }
 
+    /// Longest step that plan() would choose, s.
+    double longest() const { return options_.dt > 0 ? options_.dt : options_.safety * critical_; }
     double dt() const { return dt_; }  ///< last step planned, s; before the first one what it is likely to be
     void set_dt(double dt) { dt_ = dt; }
     /// Critical step of the bound last evaluated, s, without the safety factor.
@@ -70,6 +78,7 @@ private:
 
     Options options_;
     StabilityLimit limit_;
+    const Levels* levels_ = nullptr;
     double dt_ = 0;
     double critical_ = 0;
     double damping_rate_ = 0;  ///< of C, 1/s

@@ -148,7 +148,7 @@ void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system)
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
     refuse_idle_keys(o);
-    if (o.type == "central_difference") return std::make_unique<CentralDifference>(stable_step(o));
+    if (o.type == "central_difference") return std::make_unique<CentralDifference>(stable_step(o), o.levels);
     if (o.type == "verlet") return make_verlet(o);
     if (o.type == "noh_bathe") return std::make_unique<NohBathe>(NohBathe::Options{stable_step(o), o.split});
     if (o.type == "bathe") return make_bathe(o);

@@ -19,6 +19,7 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
                               {"force_evaluations", now.n_force},      {"jacobians", work.jacobians},
                               {"factorisations", work.factorisations}, {"iterations", work.iterations}};
     if (work.interactions > 0) summary.groups["work"]["interaction_evaluations"] = work.interactions;
+    if (work.elements > 0) summary.groups["work"]["local_element_evaluations"] = work.elements;
     if (built.cracking != nullptr) {
         std::vector<double> cracks;
         add_crack_columns(*built.cracking, now.state, cracks);

@@ -344,8 +344,7 @@ void ElementForces::add_shared(std::span<double> f) const {
 void ElementForces::throw_inverted(std::size_t block, std::ptrdiff_t local, const ElementBlock::Evaluation& at,
                                    double t) const {
     const auto which = static_cast<std::size_t>(local);
-    throw RecoverableError(fmt::format("element {} is inverted at t = {:.9g} s: {}",
-                                       labels_[static_cast<std::size_t>(blocks_[block]->element(which))], t,
+    throw RecoverableError(fmt::format("element {} is inverted at t = {:.9g} s: {}", label(block, local), t,
                                        blocks_[block]->describe_inversion(which, at)));
 }
 

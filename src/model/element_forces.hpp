@@ -53,6 +53,17 @@ public:
     /// The chunk that alone has a node, -1: several have it; shape (n_nodes).
     std::vector<std::int32_t> chunk_of_node() const;
 
+    const PackRange& packs_of(std::size_t chunk) const { return chunks_[chunk]; }
+    /// Of a chunk, in the order of its local numbers.
+    std::span<const std::int32_t> nodes_of_chunk(std::size_t chunk) const {
+        return std::span(chunk_nodes_)
+            .subspan(chunks_[chunk].first_node, chunks_[chunk].last_node - chunks_[chunk].first_node);
+    }
+    /// What the mesh calls an element.
+    std::int64_t label(std::size_t block, std::ptrdiff_t local) const {
+        return labels_[static_cast<std::size_t>(blocks_[block]->element(static_cast<std::size_t>(local)))];
+    }
+
     /// What goes with the elements, chunk by chunk.
     struct Company {
         const Interactions* interactions = nullptr;  ///< add their forces inside a chunk behind its elements

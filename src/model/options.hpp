@@ -216,6 +216,7 @@ struct IntegratorOptions {
     double safety = 0.8;   ///< factor on the critical step, (0, 1]
     bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
     double dt = 0;         ///< fixed step, s; 0: from the critical step, or from the error
+    int levels = 1;        ///< central_difference: most lengths of local steps, >= 1
 
     // verlet, noh_bathe: Verlet::Options, NohBathe::Options
     bool position_form = false;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "mesh/measure.hpp"
+#include "model/element_levels.hpp"
 #include "model/impedance.hpp"
 #include "model/load_switch.hpp"
 
@@ -194,6 +196,17 @@ FrequencyBound SolidSystem::frequency_bound(const State& accepted) const {
 double SolidSystem::bond_omega_squared(const State& accepted) const {
     return interactions_.omega_squared(accepted, Trial::of(accepted), mass_) +
            models_.largest_rates(accepted, mass_).omega_squared;
+}
+
+std::unique_ptr<Levels> SolidSystem::levels(int most) const {
+    std::vector<Problem> problems;
+    if (!interactions_.empty())
+        problems.push_back({"integrator.levels",
+                            "joints and contact act at nodes of any level and need the shortest step: `mri` takes them "
+                            "in steps of their own"});
+    if (!models_.empty()) problems.push_back({"integrator.levels", "lumped models couple nodes of all levels"});
+    if (!problems.empty()) throw InputError(problems);
+    return ElementLevels::make(elements_, initial_state(), most);
 }
 
 void SolidSystem::stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const {

@@ -52,6 +52,7 @@ public:
     const Tangent* tangent() const override;
     FrequencyBound frequency_bound(const State& accepted) const override;
     double bond_omega_squared(const State& accepted) const override;
+    std::unique_ptr<Levels> levels(int most) const override;
     /// Without follower pressures, whose stiffness is small beside that of elements.
     void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;

@@ -44,6 +44,7 @@ struct WorkCounts {
     std::size_t factorisations = 0;  ///< of matrices
     std::size_t iterations = 0;      ///< of Newton's method: each solves a linear system
     std::size_t interactions = 0;    ///< evaluations of joints and contact alone, which StepReport::n_force leaves out
+    std::size_t elements = 0;        ///< evaluations of single elements, which it leaves out too
 };
 
 /// Where a step stands that takes many iterations.

@@ -12,6 +12,7 @@
 
 #include "base/parallel.hpp"
 #include "system/event.hpp"
+#include "system/levels.hpp"
 #include "system/state.hpp"
 #include "system/tangent.hpp"
 
@@ -149,6 +150,13 @@ public:
     virtual double bond_omega_squared(const State& accepted) const {
         (void)accepted;
         return 0;
+    }
+    /// Its elements in levels, in the state at t = 0: as many as save most work, but no more than `most`. None: there
+    /// is nothing to save.
+    /// @throws InputError if something acts that cannot be told apart by elements
+    virtual std::unique_ptr<Levels> levels(int most) const {
+        (void)most;
+        return nullptr;
     }
     /// A diagonal matrix D with x.K x <= x.D x for K = -df/du at a trial: fictitious masses of pseudo-time. Where
     /// nothing better is known it is the mass times the square of the largest frequency of the accepted state.

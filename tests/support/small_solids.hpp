@@ -44,6 +44,19 @@ inline Mesh rectangle(bool compt, double width, double height, std::array<int, 2
     return make_mesh(options, compt, {});
 }
 
+/// Columns of cells of these widths, from `narrowest` times `growth` to one column from the other.
+inline Mesh graded(bool compt, std::array<int, 2> cells, double narrowest, double growth, double height) {
+    Mesh mesh = rectangle(compt, cells[0], height, cells);
+    std::vector<double> lines{0.0};
+    for (int column = 0; column < cells[0]; ++column)
+        lines.push_back(lines.back() + narrowest * std::pow(growth, column));
+    for (auto& node : mesh.nodes) {
+        const auto column = static_cast<std::size_t>(std::min(std::floor(node[0]), cells[0] - 1.0));
+        node[0] = lines[column] + (node[0] - static_cast<double>(column)) * (lines[column + 1] - lines[column]);
+    }
+    return mesh;
+}
+
 /// Bedded rock of set (22), (23): nu = 0.25, beta twice as stiff as alpha.
 inline MaterialOptions rock(double axis_angle = 0.4) {
     MaterialOptions material;

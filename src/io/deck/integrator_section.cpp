@@ -34,6 +34,11 @@ const Section<IntegratorOptions>& integrator_section() {
                  .meaning = "part of the critical step that is taken"}),
          choice("bound", &I::lanczos, step_bounds,
                 {.only_for = explicit_ones, .meaning = "how the critical step is found"}),
+         integer("levels", &I::levels,
+                 {.range = closed(1, 6),
+                  .only_for = {{"type", {"central_difference"}}},
+                  .meaning = "most lengths of local steps, each half of the one before: small elements take shorter "
+                             "ones than the rest; 1: one step for all"}),
          number(
              "dt", &I::dt,
              {.unit = "s",

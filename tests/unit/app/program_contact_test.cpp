@@ -236,6 +236,8 @@ TEST_F(ProgramContact, BadInput_IsNamed) {
     EXPECT_THAT(refusal({"mesh.parameters.gap=-1e-4"}), HasSubstr("bodies overlap at the start: node"));
     EXPECT_THAT(refusal({"contact={ method = \"potential\" }"}), HasSubstr("`contact.friction`"));
     EXPECT_THAT(refusal({"contact={ skin = 0.2 }"}), HasSubstr("skin"));
+    EXPECT_THAT(refusal({"integrator.levels=3"}),
+                HasSubstr("integrator.levels: joints and contact act at nodes of any"));
     EXPECT_THAT(refusal({"contact.restitution=1.5"}), HasSubstr("given 1.5, must be"));
     EXPECT_THAT(refusal({"wall=[{ point = [0, 0.03], normal = [0, -1] }]"}),
                 AllOf(HasSubstr("[[wall]] 1"), HasSubstr("m into the wall at the start")));

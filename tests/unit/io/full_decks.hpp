@@ -269,6 +269,19 @@ plane = "strain"
 density = 1000
 constants = { E = 1e9, nu = 0.25 }
 [integrator]
+levels = 4
+[run]
+t_end = 1
+)toml",
+    R"toml(
+[mesh]
+file = "rock.msh"
+[solid]
+plane = "strain"
+[[material]]
+density = 1000
+constants = { E = 1e9, nu = 0.25 }
+[integrator]
 type = "verlet"
 form = "position"
 composition = "suzuki_5"
