@@ -11,29 +11,14 @@ from typing import Any, Iterable
 import numpy as np
 
 from studies.common.results import observed_order, read_table
+from studies.integrators import through_events
+from studies.integrators.problems import FIRST_TOUCH, PROBLEMS
+from studies.integrators.schemes import SCHEMES
 
 # The asymptotic range: above what the two tight runs differ by, below where phases have gone astray, and every frequency
 # of the mesh resolved (settings `beyond` are not).
 ABOVE_REFERENCE = 20.0
 LEAST_SETTINGS = 2
-
-# What a scheme is refused for, or fails for, and why: the scheme, the problem and what the message says as patterns. Everything
-# else that fails is a finding.
-KINK = ("ARKODE's Newton method takes three iterations; where bodies first touch or a side opens forces have a kink, and a "
-        "fixed step cannot be made shorter")
-EXPLAINED = [
-    (r"verlet_(yoshida_3|suzuki_5|mclachlan_5)_.*", "splitting|cantilever", "back in time",
-     "takes steps back in time: cracks cannot be undone, the program refuses it"),
-    (r".*(sdirk|kvaerno|billington|trbdf2|cash_5|^ark).*", "impact|cantilever", "ARK_CONV_FAILURE", KINK),
-    ("heun_euler_2_1_2", "discs", "moved", "has no limit, every step grows: the discs fly apart"),
-]
-
-
-def explanation(scheme: str, problem: str, message: str) -> str:
-    """Why a run failed, "" where this study does not know."""
-    return next((why for schemes, problems, says, why in EXPLAINED
-                 if re.fullmatch(schemes, scheme) and re.fullmatch(problems, problem) and re.search(says, message)), "")
-
 
 @dataclass(frozen=True)
 class Run:
@@ -83,10 +68,42 @@ def order(runs: Iterable[Run], floor: float, largest: float, fewest: float) -> f
     return observed_order([1 / run.steps for run in kept], [run.error for run in kept])
 
 
+BACK_IN_TIME = "takes steps back in time: cracks cannot be undone, the program refuses it"
+KINK = ("ARKODE's Newton method takes three iterations; where bodies first touch or a side opens forces have a kink, and a "
+        "fixed step cannot be made shorter")
+NO_LIMIT = "has no limit, every step grows: the discs fly apart"
+
+
+def _number(pattern: str, text: str) -> float:
+    found = re.search(pattern + r" = ([0-9.e+-]+)", text)
+    return float(found[1]) if found else math.nan
+
+
+def explanation(run: Run, problem: str) -> str:
+    """Why a run was refused or failed, "" where this study does not know: that is a finding."""
+    scheme = SCHEMES.get(run.scheme)
+    if scheme is None or scheme.setting != "dt":
+        return ""
+    t, dt = _number("from t", run.message), _number("dt", run.setting)
+    if problem in ("splitting", "cantilever") and run.status == "refused":
+        goes_back = scheme.family == "Verlet" and scheme.integrator["composition"] != "single"
+        return BACK_IN_TIME if goes_back and "back in time" in run.message else ""
+    if scheme.name == "heun_euler_2_1_2" and problem == "discs" and "a node has moved" in run.message:
+        return NO_LIMIT
+    if scheme.family in ("implicit Runge-Kutta", "additive Runge-Kutta") and "ARK_CONV_FAILURE" in run.message:
+        impact = PROBLEMS["impact"]
+        beyond = dt > impact.interval / impact.resolved
+        if problem == "impact" and beyond and t <= FIRST_TOUCH <= t + dt:
+            return KINK
+        if problem == "cantilever" and scheme.name == "sdirk_2_1_2" and through_events.CRACKING[0] <= t <= through_events.CRACKING[1]:
+            return KINK
+    return ""
+
+
 def failures(runs: dict[str, list[Run]], problem: str) -> list[dict[str, Any]]:
     """Runs that did not come to their end, with the reason this study knows or none."""
     return [{"problem": problem, "scheme": run.scheme, "setting": run.setting, "status": run.status, "message": run.message,
-             "explained": explanation(run.scheme, problem, run.message)}
+             "explained": explanation(run, problem)}
             for of_scheme in runs.values() for run in of_scheme if run.status != "done"]
 
 

@@ -39,7 +39,7 @@ def precision(compared: Compared, path: Path) -> None:
             else:
                 axes.loglog(work, error, "-", color="#D5D5D5", lw=0.6, zorder=1)
         style.panel_label(axes, problem.title)
-        axes.set(ylim=(1e-10, 1))
+        axes.set(ylim=(1e-11, 1))
     for axes in grid[:, 0]:
         axes.set_ylabel("error of u and v")
     for axes in [*grid[1, :2], grid[0, 2]]:
@@ -116,12 +116,12 @@ def events(compared: Compared, summary: dict[str, Any], path: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.6), width_ratios=(1, 1.25))
     late = summary["details"]["late"]
     kinds = {"splitting": ("opening, mesh that splits", BLUE, "o"), "touch": ("touch of two bars", ORANGE, "s"),
-             "cantilever": ("opening, cantilever, from the median", GREEN, "^")}
+             "cantilever": ("opening, cantilever: from the median, reported", GREEN, "^")}
     for name, (label, colour, marker) in kinds.items():
         values = np.sort([abs(value) for value in late[name].values()])
         left.semilogy(np.arange(1, values.size + 1), np.maximum(values, 1e-8), marker, ms=3, color=colour, label=label)
     left.axhline(10, color=RED, lw=0.8)
-    left.text(1, 13, "asked", color=RED, fontsize=8)
+    left.text(1, 13, "asked of splitting and touch", color=RED, fontsize=7)
     left.set(xlabel="schemes, by their error", ylabel="error of the instant/tolerance", ylim=(5e-9, 100))
     left.legend(fontsize=6.5, loc="upper left", bbox_to_anchor=(0.0, -0.16))
     for scheme, (colour, marker, line) in SHOWN.items():

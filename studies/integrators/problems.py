@@ -124,6 +124,7 @@ def square() -> Problem:
 
 # --- two bars that collide ---
 IMPACT_SPEED, IMPACT_GAP = 0.5, 1e-4    # m/s of either, m
+FIRST_TOUCH = IMPACT_GAP / (2 * IMPACT_SPEED)   # s
 IMPACT_LENGTH, IMPACT_MODULUS = 1.0, 1e9
 
 

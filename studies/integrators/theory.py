@@ -1,7 +1,7 @@
 """What theory says of one step of a scheme on x'' = -omega^2 x: amplification matrices and limits of stability.
 
-With y = omega dt a step takes (omega u, v) to A(y) (omega u, v); schemes that carry an acceleration on take (omega^2 u,
-omega v, a). The formulas are those of the papers of integrators/README.md, written down again; Runge-Kutta tables are
+With y = omega dt a step takes (omega u, v) to A(y) (omega u, v); schemes that carry an acceleration on take (u, dt v,
+dt^2 a). The formulas are those of the papers of integrators/README.md, written down again; Runge-Kutta tables are
 those of the installed SUNDIALS, their step the stability function at -i y and i y.
 """
 from __future__ import annotations

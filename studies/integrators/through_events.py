@@ -39,6 +39,7 @@ def splitting() -> Deck:
 ARM, NOTCH, LENGTH, CELL = 10e-3, 20e-3, 50e-3, 5e-3    # m
 OPENING, OPENING_TIME = 4e-4, 1.5e-4                  # m of either arm, s
 BEAM_TOLERANCE = 1e-9
+CRACKING = (1.07e-4, OPENING_TIME)  # s, when sides open
 AT_REST = {"displacement_scale": OPENING, "velocity_scale": OPENING / OPENING_TIME}
 
 
@@ -105,8 +106,8 @@ def deck(name: str, profile: str) -> Deck:
         keys |= {"rtol": RTOL} if scheme.setting == "rtol" else {"dt": t_end / STEPS[name]}
         if keys["type"] in WITH_NEWTON:
             keys["tolerance"] = NEWTON
-        if keys["type"] == "ida" and name == "cantilever":
-            keys |= AT_REST  # its own scales, the largest so far, are 0 at the start
+        if keys["type"] in ("ida", "mri") and name == "cantilever":
+            keys |= AT_REST  # their own scales, the largest so far, are 0 at the start
         schemes.append({"name": scheme.name, "integrator": keys})
     result["output"] = {"history": t_end / 200}
     result["compare"] = {"samples": 4, "reference": TIGHT | {"dt": t_end / (4 * STEPS[name])}, "scheme": schemes}

@@ -3,7 +3,7 @@ import math
 import unittest
 from pathlib import Path
 
-from studies.integrators.analysis import Run, disagreement, failures, in_range, order
+from studies.integrators.analysis import Run, disagreement, explanation, failures, in_range, order
 
 
 def run(steps: int, error: float, status: str = "done", scheme: str = "some", message: str = "") -> Run:
@@ -29,13 +29,33 @@ class Orders(unittest.TestCase):
         self.assertEqual(disagreement({"tight": [run(9, 1e-11)], "witness": [run(9, 3e-11)]}), 3e-11)
 
 
+def failed(scheme: str, setting: str, message: str, status: str = "failed") -> Run:
+    return Run(scheme, setting, status, message, Path("."), math.nan, 0.0, 0.0, 0, 0, 0.1)
+
+
 class Failures(unittest.TestCase):
-    def test_RefusalsOfCompositions_AreExplained_OthersNot(self):
-        name = "verlet_suzuki_5_velocity"
-        found = failures({name: [run(0, math.nan, "refused", name, "which takes steps back in time")]}, "cantilever")
-        self.assertIn("cracks", found[0]["explained"])
-        for problem, message in (("bar", "which takes steps back in time"), ("cantilever", "out of memory")):
-            self.assertEqual(failures({name: [run(0, math.nan, "failed", name, message)]}, problem)[0]["explained"], "")
+    KINK = "arkode cannot go on from t = 7.5e-05 s: ARK_CONV_FAILURE; the last good state, t = 7.5e-05 s, is in x"
+
+    def test_RefusalsOfCompositions_AreExplained(self):
+        name, message = "verlet_suzuki_5_velocity", "which takes steps back in time; damage cannot be undone"
+        self.assertIn("cracks", explanation(failed(name, "", message, "refused"), "cantilever"))
+        self.assertEqual(explanation(failed(name, "", message, "refused"), "bar"), "")
+        self.assertEqual(explanation(failed(name, "", "out of memory"), "cantilever"), "")
+        self.assertEqual(explanation(failed("verlet_single_velocity", "", message, "refused"), "cantilever"), "")
+
+    def test_LongStepsOverTheTouch_AreExplained_OthersNot(self):
+        name = "kvaerno_5_3_4"
+        self.assertIn("kink", explanation(failed(name, "dt = 3.75e-05", self.KINK), "impact"))
+        for scheme, setting, message in (
+                (name, "dt = 5e-06", self.KINK),                                    # a step that is resolved
+                (name, "dt = 3.75e-05", self.KINK.replace("7.5e-05", "2e-03")),     # long after the touch
+                ("arkode_implicit", "rtol = 1e-06", self.KINK),                     # steps of its own choice
+                ("newmark", "dt = 3.75e-05", self.KINK)):
+            self.assertEqual(explanation(failed(scheme, setting, message), "impact"), "", (scheme, setting))
+
+    def test_Failures_ListThem(self):
+        found = failures({"some": [run(9, 1e-3)], "newmark": [failed("newmark", "dt = 1", "why")]}, "bar")
+        self.assertEqual([(entry["scheme"], entry["explained"]) for entry in found], [("newmark", "")])
 
 
 if __name__ == "__main__":
