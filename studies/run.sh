@@ -2,7 +2,7 @@
 # Runs a study: sets up what is missing, builds the program, runs every case, leaves numbers and figures.
 #
 # usage: studies/run.sh NAME [--quick] [--jobs N]
-#   NAME       a folder of studies/ with a Snakefile: blast, borehole, fracture, locking
+#   NAME       a folder of studies/ with a Snakefile: blast, borehole, fracture, integrators, locking
 #   --quick    coarse meshes, about a minute: what CI runs
 #   --jobs N   cores to use (default: number of cores)
 #

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from studies.common.matrices import read_system
 from studies.locking.cases import SIDE_MODULUS, SIDE_RATIOS
-from studies.locking.spectrum import asymmetry, frequencies
+from studies.common.spectrum import asymmetry, frequencies
 
 
 def main(program: str, deck: str, out: str) -> None:

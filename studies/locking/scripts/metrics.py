@@ -10,7 +10,7 @@ from studies.common.results import read_table
 from studies.locking.analysis import (LAST_LEVELS, LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
                                       growth_per_halving, orders, pressure, relative_difference, stress_difference)
 from studies.locking.cases import CONSTANTS, FAMILIES, PLANES, PLANS, SIDE_RATIOS, Case, M, Plan
-from studies.locking.spectrum import flutter, growth_rate
+from studies.common.spectrum import flutter, growth_rate
 
 ORDER_FAMILIES = ["uniform_right", "uniform_left", "alternating"]  # where an order is asked of the spread load
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from studies.locking.spectrum import asymmetry, flutter, frequencies, growth_rate
+from studies.common.spectrum import asymmetry, flutter, frequencies, growth_rate
 
 
 @dataclass
