@@ -1,10 +1,10 @@
 #pragma once
 // The elements of a solid in levels, pack by pack: a pack stands the step of its stiffest element.
 //
-// Levels are chosen once, in the state at t = 0, such that the shortest step is 2^-finest of the longest one. A layer of
-// packs around a level takes its steps too, and packs that share a node are at most one level apart: without that local
-// steps are unstable beside large elements that are near their own limit (docs/decisions/022). What deformation does to
-// frequencies is for bound() to tell.
+// Levels are chosen once, in the state at t = 0, such that the shortest step is 2^-finest of the longest one. A layer
+// of packs around a level takes its steps too, and packs that share a node are at most one level apart: without that
+// local steps are unstable beside large elements that are near their own limit (docs/decisions/022). What deformation
+// does to frequencies is for bound() to tell.
 //
 // A level works in the chunks of ElementForces, with the local numbers of their nodes, but gathers and scatters only
 // the nodes of its own packs. Sums over chunks have the same bits for any number of threads, as there.

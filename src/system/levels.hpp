@@ -20,8 +20,8 @@ public:
     virtual int finest() const = 0;
     virtual std::size_t n_elements(int level) const = 0;
 
-    /// Nodes of the elements of this level, 1 <= level <= finest(), and of all finer ones, ascending: those of level + 1
-    /// are among those of level.
+    /// Nodes of the elements of this level, 1 <= level <= finest(), and of all finer ones, ascending: those of level +
+    /// 1 are among those of level.
     virtual std::span<const std::int32_t> nodes(int level) const = 0;
 
     /// Forces of the elements of one level alone, 1 <= level <= finest(). Pure.
