@@ -69,7 +69,8 @@ def deck(problem: Problem, profile: str) -> Deck:
         tight, witness = WITNESS, WITNESS_THROUGH_CONTACT
     schemes = [{"name": "witness", "integrator": witness}]
     schemes += [{"name": scheme.name, "integrator": integrator(problem, scheme, profile == "quick")}
-                for scheme in SCHEMES.values() if applicable(scheme, problem.deck)]
+                for scheme in (SCHEMES.values() if profile == "full" or problem.exact else representatives())
+                if applicable(scheme, problem.deck)]
     if problem.exact:
         schemes.insert(0, {"name": "tight", "integrator": tight})
     result["compare"] = {"samples": SAMPLES, "scheme": schemes,
