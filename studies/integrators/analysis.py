@@ -69,7 +69,7 @@ def order(runs: Iterable[Run], floor: float, largest: float, fewest: float) -> f
 
 
 BACK_IN_TIME = "takes steps back in time: cracks cannot be undone, the program refuses it"
-KINK = ("ARKODE's Newton method takes three iterations; where bodies first touch or a side opens forces have a kink, and a "
+KINK = ("ARKODE's Newton method takes ten iterations; where bodies first touch or a side opens forces have a kink, and a "
         "fixed step cannot be made shorter")
 NO_LIMIT = "has no limit, every step grows: the discs fly apart"
 
