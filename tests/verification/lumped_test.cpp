@@ -16,6 +16,7 @@
 #include "integrators/quasi_static.hpp"
 #include "integrators/verlet.hpp"
 #include "support/one_thread.hpp"
+#include "support/plate_with_hole.hpp"
 #include "verification/run_solid.hpp"
 
 namespace gneiss {
@@ -76,17 +77,6 @@ const Scheme schemes[] = {
     {"ArkodeAdditive", 2e-4, 1e-4, [] { return table("ark548l2sa_8_4_5", 1e-7); }},
 };
 
-/// A plate with a hole of 1 m, coarse.
-Mesh plate() {
-    MeshOptions options;
-    options.source = MeshOptions::Source::plate_with_hole;
-    options.layout = MeshOptions::Layout::structured;
-    options.side = 6;
-    options.radius = 1;
-    options.size = {0.8, 1.6};
-    return make_mesh(options, true, {});
-}
-
 LumpedOptions gas(double pressure) {
     LumpedOptions options;
     options.name = "gas";
@@ -146,7 +136,7 @@ class LumpedUnder : public testing::TestWithParam<Scheme> {};
 TEST_P(LumpedUnder, EveryModel_AgreesWithATightSolution) {
     constexpr double t_end = 4e-3;  // waves cross the plate once or twice
     for (const Form form : {Form::hyper, Form::hypo}) {
-        const test::Solid solid = test::make_solid(plate(), everything_lumped(form));
+        const test::Solid solid = test::make_solid(test::plate_with_hole(true), everything_lumped(form));
         const Made reference = table("fehlberg_13_7_8", 1e-9);
         const State exact = test::run_solid(*solid.system, t_end, *reference).state;
         const Made integrator = GetParam().make();
@@ -161,7 +151,7 @@ TEST_P(LumpedUnder, EveryModel_AgreesWithATightSolution) {
 }
 
 TEST_P(LumpedUnder, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
-    const test::Solid solid = test::make_solid(plate(), everything_lumped(Form::hyper));
+    const test::Solid solid = test::make_solid(test::plate_with_hole(true), everything_lumped(Form::hyper));
     const auto run = [&](bool resume) {
         Made integrator = GetParam().make();
         State state = solid.system->initial_state();
@@ -299,7 +289,7 @@ TEST(GasThatBurnsAndLeaks, CompositionsOfVerletSteps_KeepTheirOrder) {
     constexpr double t_end = 1e-3;
     test::SolidDescription what;
     what.lumped = {everything_lumped(Form::hyper).lumped.front()};
-    const test::Solid solid = test::make_solid(plate(), what);
+    const test::Solid solid = test::make_solid(test::plate_with_hole(true), what);
     const Made reference = table("fehlberg_13_7_8", 1e-13);
     const State exact = test::run_solid(*solid.system, t_end, *reference).state;
     for (const Verlet::Form form : {Verlet::Form::velocity, Verlet::Form::position}) {
@@ -318,7 +308,7 @@ TEST(GasThatBurnsAndLeaks, CompositionsOfVerletSteps_KeepTheirOrder) {
 TEST(GasDrivenCavity, TightTolerance_KeepsMechanicalAndGasEnergy) {
     test::SolidDescription what;
     what.lumped = {gas(2e7)};
-    const test::Solid solid = test::make_solid(plate(), what);
+    const test::Solid solid = test::make_solid(test::plate_with_hole(true), what);
     const Made integrator = table("fehlberg_13_7_8", 1e-10);
     const test::SolidRun run = test::run_solid(*solid.system, 5e-3, *integrator);
     const double given = run.ledger.initial - run.ledger.stored.models;  // by the gas: far less than it has
@@ -337,7 +327,7 @@ TEST_P(LumpedStatics, GasHammerAndActuator_AreInEquilibrium) {
     what.lumped[1].velocity = what.lumped[1].damping = 0;
     what.boundaries.erase(what.boundaries.begin());
     what.boundaries[0].value = {Formula(0.0), Formula(0.0)};
-    const test::Solid solid = test::make_solid(plate(), what);
+    const test::Solid solid = test::make_solid(test::plate_with_hole(true), what);
     Made integrator;
     if (GetParam())
         integrator = std::make_unique<QuasiStatic>(QuasiStatic::Options{});

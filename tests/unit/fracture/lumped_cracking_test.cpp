@@ -6,6 +6,7 @@
 #include "model/gas_cavity.hpp"
 #include "support/cracking_solid.hpp"
 #include "support/one_thread.hpp"
+#include "support/plate_with_hole.hpp"
 #include "system/march.hpp"
 
 namespace gneiss {
@@ -38,13 +39,7 @@ test::SolidDescription pressed() {
 }
 
 test::CrackingSolid cracking_plate() {
-    MeshOptions options;
-    options.source = MeshOptions::Source::plate_with_hole;
-    options.layout = MeshOptions::Layout::structured;
-    options.side = 5;
-    options.radius = 1;
-    options.size = {0.4, 0.8};
-    return test::cracking_solid(make_mesh(options, true, {}), pressed());
+    return test::cracking_solid(test::plate_with_hole(true, 5, {0.4, 0.8}), pressed());
 }
 
 State run(test::CrackingSolid& solid, double t_end) {

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "support/one_thread.hpp"
+#include "support/plate_with_hole.hpp"
 #include "support/small_solids.hpp"
 
 namespace gneiss {
@@ -15,17 +16,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// A plate with a hole of 1 m, coarse.
-Mesh plate(bool compt) {
-    MeshOptions options;
-    options.source = MeshOptions::Source::plate_with_hole;
-    options.layout = MeshOptions::Layout::structured;
-    options.side = 6;
-    options.radius = 1;
-    options.size = {0.8, 1.6};
-    return make_mesh(options, compt, {});
-}
 
 LumpedOptions gas(bool changing) {
     LumpedOptions options;
@@ -56,7 +46,7 @@ test::Solid solid(bool compt, std::vector<LumpedOptions> lumped, Form form = For
     what.materials[0].form = form;
     what.solid.thickness = 0.5;
     what.lumped = std::move(lumped);
-    return test::make_solid(plate(compt), what);
+    return test::make_solid(test::plate_with_hole(compt), what);
 }
 
 State moved(const test::Solid& solid, double size) {
@@ -187,7 +177,7 @@ TEST(MakeLumped, EveryProblem_IsReportedWithItsPlace) {
     nowhere.on = "hle";
     outside.on = "outer";
     try {
-        make_lumped(plate(false), {gas(false), nowhere, outside}, 1);
+        make_lumped(test::plate_with_hole(false), {gas(false), nowhere, outside}, 1);
         FAIL();
     } catch (const InputError& error) {
         ASSERT_EQ(error.problems().size(), 2u);
