@@ -70,21 +70,26 @@ fi
 log=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX.log")
 
 # What apt says goes to the log. Of its status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...", one in every
-# tenth of the way is shown; those of the package lists, which count nothing useful, are not.
+# tenth of the way is shown; those of the package lists, which count nothing useful, are not. By the shell, which reads
+# lines as they come: mawk waits for a block of them.
 show_progress() {
-    awk -F: -v log_file="$log" -v quiet="$1" '
-        /^(dl|pm)status:/ {
-            if (quiet) next
-            what = $1 == "dlstatus" ? "downloaded" : "installed"
-            tenth = int($3 / 10)
-            if (!(what in shown) || tenth > shown[what]) {
-                shown[what] = tenth
-                printf "packages:   %s %3d %%\n", what, tenth * 10
-                fflush()
-            }
-            next
-        }
-        { print > log_file; fflush(log_file) }'
+    local quiet=$1 line status percent what tenth
+    local -A shown=()
+    while IFS= read -r line || [[ -n $line ]]; do
+        if [[ ! $line =~ ^(dl|pm)status: ]]; then
+            printf '%s\n' "$line" >>"$log"
+            continue
+        fi
+        ((!quiet)) || continue
+        IFS=: read -r status _ percent _ <<<"$line"
+        what=installed
+        [[ $status != dlstatus ]] || what=downloaded
+        tenth=$((${percent%%.*} / 10))
+        if ((tenth > ${shown[$what]:--1})); then
+            shown[$what]=$tenth
+            printf 'packages:   %s %3d %%\n' "$what" $((tenth * 10))
+        fi
+    done
 }
 
 apt() {

@@ -68,10 +68,8 @@ snakemake=(/usr/bin/snakemake -s "studies/$name/Snakefile" --directory "$results
 [[ ${targets[*]} != *crosscheck* ]] || snakemake+=("crosscheck=$crosscheck")
 # A run that was killed leaves a lock behind. Nobody else writes into this folder: take it away.
 "${snakemake[@]}" --unlock >/dev/null 2>&1 || true
-# Of snakemake's talk: what begins, how far it is, and everything from the first error on.
-"${snakemake[@]}" --keep-going --rerun-incomplete --show-failed-logs </dev/null 2>&1 \
-    | awk '/[Ee]rror|Exception|Traceback/ { bad = 1 }
-           bad || /^Job [0-9]+: / || /steps \(.*done$/ { print "      " $0; fflush() }' || fail "some step failed: its message is above, its log in results/$name/logs"
+"${snakemake[@]}" --keep-going --rerun-incomplete --show-failed-logs </dev/null 2>&1 | studies/common/progress.sh \
+    || fail "some step failed: its message is above, its log in results/$name/logs"
 took
 
 step 4/4 "metrics against what the study has to show"

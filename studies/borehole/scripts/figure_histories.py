@@ -9,7 +9,7 @@ from studies.borehole.figures import COLOURS, TITLES, case_of_file, materials_ti
 from studies.common import style
 
 results = Results(Path(snakemake.params.folder))  # noqa: F821
-cases = {case_of_file(path).axes: case_of_file(path) for path in snakemake.input}  # noqa: F821
+cases = {case_of_file(path).axes: case_of_file(path) for path in snakemake.input.runs}  # noqa: F821
 filtered = {axes: results.filtered_velocity(case) for axes, case in cases.items()}
 first = cases["horizontal"]
 ms = 1e3 * TIMES

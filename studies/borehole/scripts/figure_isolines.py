@@ -20,7 +20,7 @@ def smoothed_speed(velocity: np.ndarray, axis: np.ndarray) -> np.ndarray:
     return np.where(inside, np.hypot(*average), np.nan)
 
 
-by_axes = {case_of_file(path).axes: path for path in snakemake.input}  # noqa: F821
+by_axes = {case_of_file(path).axes: path for path in snakemake.input.runs}  # noqa: F821
 figure, panels = style.plt.subplots(1, 2, figsize=(style.FULL_WIDTH, 4.2), sharey=True)
 for letter, panel, (unturned, turned) in zip("ab", panels, ROTATION_PAIRS):
     for axes, key, look in ((unturned, "velocity", {"colors": style.RED, "linewidths": 1.6}),
@@ -31,7 +31,7 @@ for letter, panel, (unturned, turned) in zip("ab", panels, ROTATION_PAIRS):
     panel.add_patch(style.plt.Circle((0, 0), CAVITY_RADIUS, fill=False, linewidth=0.8))
     style.panel_label(panel, f"{letter}) {TITLES[unturned]} and {TITLES[turned]}")
 panels[1].set_ylabel("")
-title = materials_title(case_of_file(snakemake.input[0]))  # noqa: F821
+title = materials_title(case_of_file(snakemake.input.runs[0]))  # noqa: F821
 figure.suptitle(f"{title}, t = {1e3 * SNAPSHOT_TIME:g} ms\n"
                 f"speed {', '.join(f'{v:g}' for v in LEVELS)} m/s; red: unturned, dashed: turned by 45° and turned back",
                 fontsize=9)

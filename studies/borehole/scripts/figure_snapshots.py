@@ -7,7 +7,7 @@ from studies.common import style
 
 HALF_WIDTH = 9.0  # m
 
-data = {case_of_file(path): np.load(path) for path in snakemake.input}  # noqa: F821
+data = {case_of_file(path): np.load(path) for path in snakemake.input.runs}  # noqa: F821
 axis = next(iter(data.values()))["axis"]
 speeds = {case: np.hypot(*np.moveaxis(fields["velocity"], -1, 0)) for case, fields in data.items()}
 in_order = sorted(speeds, key=lambda case: list(TITLES).index(case.axes))

@@ -8,7 +8,7 @@ from studies.borehole.analysis import FRONT_SPAN
 from studies.borehole.figures import case_of_file
 from studies.common import style
 
-details = json.loads(Path(snakemake.input[0]).read_text())["details"]  # noqa: F821
+details = json.loads(Path(snakemake.input.summary).read_text())["details"]  # noqa: F821
 
 
 def wavefront(path: str) -> None:

@@ -5,4 +5,4 @@ from pathlib import Path
 from studies.fracture.experiments import EXPERIMENTS
 
 EXPERIMENTS[snakemake.params.experiment].draw(  # noqa: F821
-    json.loads(Path(snakemake.input[0]).read_text()), Path("figures"))  # noqa: F821
+    json.loads(Path(snakemake.input.measured).read_text()), Path("figures"))  # noqa: F821

@@ -8,7 +8,7 @@ from studies.common import style
 from studies.locking.figures import (ELEMENT_COLOURS, ELEMENT_MARKS, ELEMENT_NAMES, ELEMENT_ORDER, FAMILY_COLOURS, FAMILY_MARKS,
                                      FAMILY_NAMES, size_axis, sizes_and_values)
 
-details = json.loads(Path(snakemake.input[0]).read_text())["details"]  # noqa: F821
+details = json.loads(Path(snakemake.input.summary).read_text())["details"]  # noqa: F821
 SCALE = 1e9  # displacements in nm/N, which is mm for a force of 1 MN
 
 
