@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "base/errors.hpp"
 #include "contact/make_contact.hpp"
@@ -165,6 +166,14 @@ std::vector<std::string> warnings_of_statics(const CaseOptions& options) {
     return warnings;
 }
 
+/// How far beyond the strength sides may open.
+double overshoot_allowed(const CaseOptions& options) {
+    constexpr double usual = 0.01;
+    if (options.fracture.overshoot > 0) return options.fracture.overshoot;
+    const std::set<std::string> short_steps{"central_difference", "verlet", "noh_bathe"};
+    return short_steps.contains(options.integrator.type) ? 0 : usual;
+}
+
 }  // namespace
 
 Case build_case(CaseOptions options) {
@@ -207,7 +216,7 @@ Case build_case(CaseOptions options) {
             properties = edge_properties(*built.mesh, edges, parts.blocks, options.materials, options.fracture,
                                          options.interfaces, named, built.warnings);
             if (extrinsic) {
-                watch_strength(edges, properties, parts.blocks);
+                watch_strength(*built.mesh, edges, properties, parts.blocks, watch_reach(options.fracture.criterion));
                 joints = make_extrinsic_joints(*built.inner, properties, options.solid.thickness);
             } else {
                 joints =
@@ -263,6 +272,9 @@ Case build_case(CaseOptions options) {
                                           .solid = *built.system,
                                           .joints = *cohesion,
                                           .properties = std::move(properties),
+                                          .criterion = options.fracture.criterion,
+                                          .thickness = options.solid.thickness,
+                                          .overshoot = overshoot_allowed(options),
                                           .come_apart = {},
                                           .surroundings = surroundings_of(*built.system, *built.mesh, options),
                                           .loads_everywhere = std::ranges::any_of(options.loads, [](const auto& load) {

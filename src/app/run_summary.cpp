@@ -23,11 +23,13 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
     if (built.cracking != nullptr) {
         std::vector<double> cracks;
         add_crack_columns(*built.cracking, now.state, cracks);
+        const Cracking::Overshoot overshoot = built.cracking->overshoot(now.state);
         summary.groups["cracks"] = {{"cracked_length_m", cracks[0]},
                                     {"fragments", cracks[1]},
                                     {"nodes", cracks[2]},
                                     {"splitting_events", built.cracking->n_events()},
-                                    {"largest_overshoot", built.cracking->largest_overshoot()}};
+                                    {"largest_overshoot", overshoot.largest},
+                                    {"overshoot_by_dissipation", overshoot.by_dissipation}};
         if (const auto first = built.cracking->first_opening()) summary.groups["cracks"]["first_opening_s"] = *first;
     }
     if (built.touches != nullptr) {

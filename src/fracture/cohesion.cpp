@@ -168,31 +168,39 @@ std::unique_ptr<Joints> make_cohesion(const Mesh& mesh, std::span<const JointEdg
                        thickness);
 }
 
-void watch_strength(std::span<const JointEdge> edges, std::span<const CohesionProperties<double>> properties,
-                    std::span<const std::unique_ptr<ElementBlock>> blocks) {
+void watch_strength(const Mesh& mesh, std::span<const JointEdge> edges,
+                    std::span<const CohesionProperties<double>> properties,
+                    std::span<const std::unique_ptr<ElementBlock>> blocks, const WatchReach& reach) {
     // a block's watch is that of its weakest edge, but for a factor of each element
     struct Least {
         double tensile_strength = std::numeric_limits<double>::infinity(), cohesion = tensile_strength,
                tan_phi = tensile_strength;
-        void take(const CohesionProperties<double>& p) {
-            tensile_strength = std::min(tensile_strength, p.tensile_strength);
-            cohesion = std::min(cohesion, p.cohesion);
-            tan_phi = std::min(tan_phi, p.tan_phi_initial);
+        void take(double tensile, double shear, double friction) {
+            tensile_strength = std::min(tensile_strength, tensile);
+            cohesion = std::min(cohesion, shear);
+            tan_phi = std::min(tan_phi, friction);
         }
+        void take(const Least& other) { take(other.tensile_strength, other.cohesion, other.tan_phi); }
+        void take(const CohesionProperties<double>& p) { take(p.tensile_strength, p.cohesion, p.tan_phi_initial); }
     };
     std::map<std::int32_t, Least> of_element;
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (const std::int32_t e : {edges[i].left, edges[i].right}) of_element[e].take(properties[i]);
+    if (reach.around_nodes) {
+        std::vector<Least> of_node(mesh.n_nodes());
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            for (const std::int32_t node : edges[i].nodes) of_node[static_cast<std::size_t>(node)].take(properties[i]);
+        const auto n = static_cast<std::size_t>(mesh.nodes_per_element());
+        for (std::size_t e = 0; e < mesh.n_elements(); ++e)
+            for (const std::int32_t node : std::span(mesh.element(e), n))
+                of_element[static_cast<std::int32_t>(e)].take(of_node[static_cast<std::size_t>(node)]);
+    }
     for (const auto& block : blocks) {
         StrengthWatch watch;
         Least least;
         const auto of = [&](std::size_t local) { return of_element.find(block->element(local)); };
         for (std::size_t local = 0; local < block->n_elements(); ++local)
-            if (const auto found = of(local); found != of_element.end()) {
-                least.tensile_strength = std::min(least.tensile_strength, found->second.tensile_strength);
-                least.cohesion = std::min(least.cohesion, found->second.cohesion);
-                least.tan_phi = std::min(least.tan_phi, found->second.tan_phi);
-            }
+            if (const auto found = of(local); found != of_element.end()) least.take(found->second);
         if (!std::isfinite(least.cohesion)) continue;  // no element of it touches another one
         watch.per_tensile_strength = 1 / least.tensile_strength;
         watch.per_cohesion = 1 / least.cohesion;
@@ -201,7 +209,8 @@ void watch_strength(std::span<const JointEdge> edges, std::span<const CohesionPr
         for (std::size_t local = 0; local < block->n_elements(); ++local)
             if (const auto found = of(local); found != of_element.end()) {
                 const double factor = std::min(found->second.tensile_strength / least.tensile_strength,
-                                               found->second.cohesion / least.cohesion);
+                                               found->second.cohesion / least.cohesion) /
+                                      reach.factor;
                 watch.factor_squared[local] = factor * factor;
             }
         block->watch(std::move(watch));

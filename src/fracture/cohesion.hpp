@@ -43,9 +43,16 @@ std::unique_ptr<Joints> make_cohesion(const Mesh& mesh, std::span<const JointEdg
                                       std::span<const CohesionProperties<double>> properties,
                                       FractureOptions::Method method, double thickness);
 
-/// Lets blocks watch the strength of their elements' sides.
+/// What stresses are compared with while forces are computed.
+struct WatchReach {
+    bool around_nodes = false;  ///< with the strengths of all sides at an element's nodes, not of its own sides alone
+    double factor = 1;          ///< which have to be this times the stress, -
+};
+
+/// Lets blocks watch the strength of sides.
 /// @param edges, properties  of every inner side
-void watch_strength(std::span<const JointEdge> edges, std::span<const CohesionProperties<double>> properties,
-                    std::span<const std::unique_ptr<ElementBlock>> blocks);
+void watch_strength(const Mesh& mesh, std::span<const JointEdge> edges,
+                    std::span<const CohesionProperties<double>> properties,
+                    std::span<const std::unique_ptr<ElementBlock>> blocks, const WatchReach& reach);
 
 }  // namespace gneiss

@@ -4,25 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "base/errors.hpp"
-#include "fracture/envelope.hpp"
 
 namespace gneiss {
 namespace {
 
 std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-/// The sub-triangle at a sub-edge of a side, in the order of side_nodes().
-int sub_triangle_at(ElementKind kind, int side, std::size_t part) {
-    // a composite's sides run corner, mid-side, corner; its sub-triangles 0 to 2 are those at its corners
-    return kind == ElementKind::cst ? 0 : (side + static_cast<int>(part)) % 3;
+void add_to_record(std::vector<double>& record, std::span<const std::int32_t> numbers) {
+    record.push_back(static_cast<double>(numbers.size()));
+    record.insert(record.end(), numbers.begin(), numbers.end());
 }
 
-void add_to_record(std::vector<double>& record, std::span<const std::int32_t> sides) {
-    record.push_back(static_cast<double>(sides.size()));
-    record.insert(record.end(), sides.begin(), sides.end());
-}
+/// Places on a side in a checkpoint's numbers of its nodes.
+constexpr std::int32_t most_places = 3;
 
 /// Nodes that were one, and the ends that wait between them.
 struct Family {
@@ -59,8 +56,14 @@ std::vector<Family> families(std::span<const Joints::WaitingEnd> ends) {
 
 }  // namespace
 
+Cracking::Cracking(Parts parts) : parts_(std::move(parts)) {
+    if (!parts_.properties.empty())
+        criterion_ = make_crack_criterion(parts_.criterion, {parts_.mesh, parts_.inner, parts_.solid, parts_.joints,
+                                                             parts_.properties, parts_.thickness});
+}
+
 std::span<const double> Cracking::history(const State& state) const {
-    return parts_.solid.history_of(parts_.joints, const_cast<State&>(state));
+    return parts_.solid.history_of(parts_.joints, state);
 }
 
 std::vector<bool> Cracking::broken_sides(const State& state) const {
@@ -85,20 +88,27 @@ bool Cracking::stirred(const State& state) const {
 }
 
 EventOutcome Cracking::look(State& accepted) {
-    ++look_;
+    CrackOpenings openings;
     Change change;
-    if (!parts_.properties.empty()) change.opened = sides_beyond(accepted);
+    if (criterion_) openings = criterion_->openings(accepted);
+    change.opened = std::move(openings.ends);
     if (parts_.come_apart) change.failed = parts_.come_apart(parts_.joints.sides_let_go(accepted, history(accepted)));
     if (change.opened.empty() && change.failed.empty()) return EventOutcome::none;
     if (!change.opened.empty() && !first_opening_) first_opening_ = accepted.t;
     accepted.path.splitting -=
         parts_.joints.hand_over(change.failed, accepted, parts_.solid.history_of(parts_.joints, accepted));
     part(change, accepted);
-    wake_ends(accepted);
+    wake_ends(accepted, openings.starts);
     return EventOutcome::resize;
 }
 
 void Cracking::part(const Change& change, State& state) {
+    std::vector<std::int32_t> opened, ends;  // sides that were whole; nodes of sides
+    for (const SideNode& end : change.opened) {
+        ends.push_back(most_places * end.side + end.place);
+        if (!parts_.inner.is_open(end.side) && (opened.empty() || opened.back() != end.side))
+            opened.push_back(end.side);
+    }
     const std::vector<NodeCopy> copies = parts_.inner.open(change.opened);
     std::vector<std::int32_t> elements;
     for (const NodeCopy& copy : copies)
@@ -110,10 +120,24 @@ void Cracking::part(const Change& change, State& state) {
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     std::optional<SolidSystem::Surroundings> surroundings;
     if (parts_.surroundings && named(copies)) surroundings = parts_.surroundings(parts_.mesh);
-    parts_.solid.follow({parts_.mesh, copies, elements, change.opened, change.failed}, std::move(surroundings), state);
-    add_to_record(record_, change.opened);
+    parts_.solid.follow({parts_.mesh, copies, elements, opened, change.failed}, std::move(surroundings), state);
+    add_to_record(record_, ends);
     add_to_record(record_, change.failed);
     ++n_events_;
+}
+
+auto Cracking::overshoot(const State& state) const -> Overshoot {
+    const auto own = history(state);
+    double dissipated = 0, beyond = 0;
+    for (std::size_t joint = 0; joint < parts_.joints.n_joints(); ++joint) {
+        const JointState at = parts_.joints.state_of(joint, state, own);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double energy = at.length * (at.fracture_i[i] + at.fracture_ii[i]);
+            dissipated += energy;
+            beyond += energy * (at.strength_factor[i] - 1);
+        }
+    }
+    return {largest_overshoot_, dissipated > 0 ? beyond / dissipated : 0};
 }
 
 std::vector<double> Cracking::save() const {
@@ -125,26 +149,30 @@ std::vector<double> Cracking::save() const {
 void Cracking::replay(const std::vector<double>& record) {
     State any = parts_.solid.initial_state();
     const auto bad = [] { return InputError("cracks", "of the checkpoint do not fit the mesh"); };
-    const auto n_sides = static_cast<double>(parts_.inner.sides().size());
+    const std::size_t n_sides = parts_.inner.sides().size(), n_ends = n_sides * most_places;
     if (record.size() < 2) throw bad();
     largest_overshoot_ = record[0];
     if (record[1] >= 0) first_opening_ = record[1];
     std::size_t next = 2;
-    const auto take = [&] {
-        if (!(next < record.size() && record[next] >= 0 && record[next] <= n_sides)) throw bad();
+    const auto take = [&](std::size_t n_all) {
+        const auto limit = static_cast<double>(n_all);
+        if (!(next < record.size() && record[next] >= 0 && record[next] <= limit)) throw bad();
         const auto n = static_cast<std::size_t>(record[next++]);
         if (n > record.size() - next) throw bad();
-        std::vector<std::int32_t> sides;
+        std::vector<std::int32_t> numbers;
         for (std::size_t i = 0; i < n; ++i, ++next) {
-            if (!(record[next] >= 0 && record[next] < n_sides)) throw bad();
-            sides.push_back(static_cast<std::int32_t>(record[next]));
+            if (!(record[next] >= 0 && record[next] < limit)) throw bad();
+            numbers.push_back(static_cast<std::int32_t>(record[next]));
         }
-        return sides;
+        return numbers;
     };
     while (next < record.size()) {
         Change change;
-        change.opened = take();
-        change.failed = take();
+        for (const std::int32_t number : take(n_ends)) {
+            change.opened.push_back({number / most_places, number % most_places});
+            if (index(change.opened.back().place) >= side_nodes(parts_.mesh.kind, 0).size()) throw bad();
+        }
+        change.failed = take(n_sides);
         part(change, any);
     }
 }
@@ -158,102 +186,9 @@ bool Cracking::named(const std::vector<NodeCopy>& copies) const {
     });
 }
 
-std::array<double, 3> Cracking::stress(const State& state, const ElementSide& side, std::size_t part) const {
-    const ElementForces& elements = parts_.solid.elements();
-    const std::size_t per_pack = static_cast<std::size_t>(elements.n_sub_triangles()) * 3 * pack_width;
-    if (first_pack_.empty()) {
-        first_pack_.push_back(0);
-        for (const auto& block : elements.blocks()) first_pack_.push_back(first_pack_.back() + block->n_packs());
-        seen_.assign(first_pack_.back(), -1);
-        stresses_.resize(first_pack_.back() * per_pack);
-    }
-    const ElementForces::Place& place = elements.place(side.element);
-    const std::size_t pack = index(place.local) / pack_width, lane = index(place.local) % pack_width;
-    const std::size_t slot = first_pack_[index(place.block)] + pack;
-    double* of_pack = stresses_.data() + slot * per_pack;
-    if (seen_[slot] != look_) {
-        seen_[slot] = look_;
-        elements.blocks()[index(place.block)]->pack_stress(
-            pack, elements.evaluation(index(place.block), state, Trial::of(state)), of_pack);
-    }
-    const auto sub = static_cast<std::size_t>(sub_triangle_at(parts_.mesh.kind, side.side, part));
-    const double* xx = of_pack + 3 * sub * pack_width + lane;
-    return {xx[0], xx[pack_width], xx[2 * pack_width]};
-}
+double Cracking::indicator(const State& state) const { return criterion_ ? criterion_->utilisation(state) - 1 : -1; }
 
-std::array<double, 3> Cracking::mean_stress(const State& state, std::int32_t side, std::size_t part) const {
-    const InnerSide& inner = parts_.inner.sides()[index(side)];
-    const std::size_t n_parts = side_nodes(parts_.mesh.kind, 0).size() - 1;
-    const std::array<double, 3> left = stress(state, inner.left, part);
-    const std::array<double, 3> right = stress(state, inner.right, n_parts - 1 - part);
-    return {0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1]), 0.5 * (left[2] + right[2])};
-}
-
-std::vector<std::pair<std::int32_t, double>> Cracking::watched_sides(const State& state) const {
-    const ElementForces& elements = parts_.solid.elements();
-    candidates_.clear();
-    looked_at_.resize(parts_.inner.sides().size(), -1);
-    for (std::size_t b = 0; b < elements.blocks().size(); ++b) {
-        const ElementBlock& block = *elements.blocks()[b];
-        const auto beyond = elements.beyond(b, state);
-        for (std::size_t pack = 0; pack < beyond.size(); ++pack) {
-            if (beyond[pack] == 0) continue;
-            const auto lanes = static_cast<unsigned>(beyond[pack]);
-            for (std::size_t lane = 0; lane < pack_width; ++lane) {
-                const std::size_t local = pack * pack_width + lane;
-                if ((lanes >> lane & 1U) == 0 || local >= block.n_elements()) continue;
-                for (int side = 0; side < 3; ++side) {
-                    const std::int32_t s = parts_.inner.number({block.element(local), side});
-                    if (s < 0 || parts_.inner.is_open(s) || looked_at_[index(s)] == look_) continue;
-                    looked_at_[index(s)] = look_;
-                    candidates_.push_back(s);
-                }
-            }
-        }
-    }
-    std::vector<std::pair<std::int32_t, double>> found;
-    for (const std::int32_t side : candidates_) {
-        const ElementSide& left = parts_.inner.sides()[index(side)].left;
-        const auto local = side_nodes(parts_.mesh.kind, left.side);
-        const std::int32_t* nodes = parts_.mesh.element(index(left.element));
-        const std::size_t n_parts = local.size() - 1;
-        Vec2<double> traction{0, 0}, line{0, 0};  // times length
-        for (std::size_t part = 0; part < n_parts; ++part) {
-            const std::size_t a = index(nodes[local[part]]), b = index(nodes[local[part + 1]]);
-            const Vec2<double> along{
-                parts_.mesh.nodes[b][0] - parts_.mesh.nodes[a][0] + state.u[2 * b] - state.u[2 * a],
-                parts_.mesh.nodes[b][1] - parts_.mesh.nodes[a][1] + state.u[2 * b + 1] - state.u[2 * a + 1]};
-            const auto [xx, yy, xy] = mean_stress(state, side, part);
-            traction = traction + Vec2<double>{xx * along.y - xy * along.x, xy * along.y - yy * along.x};
-            line = line + along;
-        }
-        const double length = std::hypot(line.x, line.y);
-        const Vec2<double> t{line.x / length, line.y / length}, n{t.y, -t.x};
-        const CohesionProperties<double>& p = parts_.properties[n_parts * index(side)];
-        found.emplace_back(side, envelope_index(p, dot(traction, n) / length, dot(traction, t) / length));
-    }
-    return found;
-}
-
-std::vector<std::int32_t> Cracking::sides_beyond(const State& state) {
-    std::vector<std::int32_t> beyond;
-    for (const auto& [side, index_of_side] : watched_sides(state)) {
-        if (!(index_of_side >= 1)) continue;
-        beyond.push_back(side);
-        largest_overshoot_ = std::max(largest_overshoot_, std::sqrt(index_of_side) - 1);
-    }
-    std::ranges::sort(beyond);
-    return beyond;
-}
-
-double Cracking::indicator(const State& state) const {
-    ++look_;
-    double largest = 0;
-    for (const auto& [side, index_of_side] : watched_sides(state)) largest = std::max(largest, index_of_side);
-    return std::sqrt(largest) - 1;
-}
-
-void Cracking::wake_ends(State& state) {
+void Cracking::wake_ends(State& state, const std::vector<CrackOpenings::Start>& starts) {
     const auto own = parts_.solid.history_of(parts_.joints, state);
     const auto ends = parts_.joints.waiting(state, own);
     if (ends.empty()) return;
@@ -269,19 +204,28 @@ void Cracking::wake_ends(State& state) {
     const auto prescribed = [&](std::size_t dof) {
         return std::ranges::binary_search(constraints, dof, {}, &Constraint::dof);
     };
+    using Key = std::tuple<std::int32_t, std::size_t, std::size_t>;
+    std::map<Key, Vec2<double>> found;
+    for (const CrackOpenings::Start& start : starts) found[{start.side, start.part, start.end}] = start.on_left;
+    if (criterion_) criterion_->look_at(state);
     double offset_energy = 0;
     for (const Family& family : families(ends)) {
         const auto n = static_cast<Eigen::Index>(family.nodes.size());
         const auto place = [&](std::int32_t node) {
             return std::ranges::find(family.nodes, node) - family.nodes.begin();
         };
-        // tractions of the stresses on both sides, and what they leave each copy to be short of
+        // tractions to begin with, and the force imbalance of each copy under them
         std::vector<std::array<double, 2>> tractions;
         Eigen::MatrixXd conductance = Eigen::MatrixXd::Zero(n, n), rest = Eigen::MatrixXd::Zero(n, 2);
         for (const std::size_t i : family.ends) {
             const Joints::WaitingEnd& end = ends[i];
-            const auto [xx, yy, xy] = mean_stress(state, end.side, parts_.joints.part_of_side(end.joint));
-            tractions.push_back({xx * end.normal.x + xy * end.normal.y, xy * end.normal.x + yy * end.normal.y});
+            const std::size_t part = parts_.joints.part_of_side(end.joint);
+            if (const auto known = found.find(Key{end.side, part, end.end}); known != found.end()) {
+                tractions.push_back({known->second.x, known->second.y});
+            } else {
+                const auto [xx, yy, xy] = criterion_->mean_stress(end.side, part);
+                tractions.push_back({xx * end.normal.x + xy * end.normal.y, xy * end.normal.x + yy * end.normal.y});
+            }
             const auto a = place(end.a), b = place(end.b);
             conductance(a, a) += end.weight;
             conductance(b, b) += end.weight;
@@ -314,7 +258,10 @@ void Cracking::wake_ends(State& state) {
             const auto a = place(end.a), b = place(end.b);
             const Vec2<double> traction{tractions[k][0] + potential(a, 0) - potential(b, 0),
                                         tractions[k][1] + potential(a, 1) - potential(b, 1)};
-            offset_energy += parts_.joints.wake(end, dot(traction, end.normal), dot(traction, end.along), own);
+            const Joints::Start start =
+                parts_.joints.wake(end, dot(traction, end.normal), dot(traction, end.along), own);
+            offset_energy += start.energy;
+            largest_overshoot_ = std::max(largest_overshoot_, start.overshoot);
         }
     }
     state.path.splitting += offset_energy;

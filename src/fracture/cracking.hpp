@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "fracture/crack_criterion.hpp"
 #include "fracture/joints.hpp"
 #include "mesh/inner_sides.hpp"
 #include "model/solid_system.hpp"
@@ -15,13 +16,14 @@ namespace gneiss {
 
 /// Looks at every accepted state.
 ///
-/// A side opens where the mean of the tractions on its two sides is beyond the envelope. Nodes around which elements
-/// have come apart are copied; the ends of joints between an original and its copies then get tractions with which
-/// every copy goes on with the acceleration that the node had, so that neither velocity nor acceleration jumps:
+/// A criterion tells which sides open, and at which of their nodes. Nodes around which elements have come apart are
+/// copied; the ends of joints between an original and its copies then get tractions with which every copy goes on with
+/// the acceleration that the node had, so that neither velocity nor acceleration jumps:
 ///
 ///   sum over ends at copy g of (+-) w t = m_g a - f_g,   a = sum f_g/sum m_g,
 ///
-/// t nearest to the mean of the stresses on both sides, in the sense of least squares.
+/// t nearest, in the sense of least squares, to what the criterion found, or else to the mean of the stresses on both
+/// sides.
 class Cracking final : public Event {
 public:
     struct Parts {
@@ -32,6 +34,10 @@ public:
         /// Of the sub-edges of every inner side, one behind the other; empty: no side opens, joints are there from the
         /// start.
         std::vector<CohesionProperties<double>> properties = {};
+        FractureOptions::Criterion criterion = FractureOptions::Criterion::nodal;  ///< when they open
+        double thickness = 1;                                                      ///< of the solid, m
+        /// By how much the utilisation may be beyond 1 where sides open, -: Event::indicator_tolerance(); 0: no matter.
+        double overshoot = 0;
         /// Which of these failed sides contact can take over: ContactBodies::come_apart(). Joints of the others go on
         /// to press, all of them where this is empty.
         std::function<std::vector<std::int32_t>(std::span<const std::int32_t>)> come_apart = {};
@@ -40,7 +46,7 @@ public:
         std::function<SolidSystem::Surroundings(const Mesh&)> surroundings = {};
         bool loads_everywhere = false;  ///< body forces: any copy changes the surroundings
     };
-    explicit Cracking(Parts parts) : parts_(std::move(parts)) {}
+    explicit Cracking(Parts parts);
 
     std::string name() const override { return "cracking"; }
     std::optional<double> next_time(const State&) const override { return std::nullopt; }
@@ -49,7 +55,8 @@ public:
     bool stirred(const State& state) const override;
     EventOutcome look(State& accepted) override;
     bool has_indicator() const override { return !parts_.properties.empty(); }
-    /// How far the traction of the side that is nearest to its strength is beyond it, relative; -1: none is near.
+    double indicator_tolerance() const override { return parts_.overshoot; }
+    /// How far the utilisation of what is nearest to its strength is beyond 1; -1: nothing is near.
     double indicator(const State& state) const override;
 
     const Joints& joints() const { return parts_.joints; }
@@ -60,9 +67,12 @@ public:
     std::vector<bool> broken_sides(const State& state) const;
     std::span<const double> history(const State& state) const;
     std::size_t n_events() const { return n_events_; }
-    /// By how much tractions were beyond the strength where sides were found to open, relative, the largest so far:
-    /// what the length of steps has to answer for.
-    double largest_overshoot() const { return largest_overshoot_; }
+    /// By how much the tractions with which ends of joints began were beyond the strength given, relative.
+    struct Overshoot {
+        double largest;         ///< so far
+        double by_dissipation;  ///< mean, each end by what its fracture has dissipated
+    };
+    Overshoot overshoot(const State& state) const;
     /// When the first side has opened, s.
     std::optional<double> first_opening() const { return first_opening_; }
 
@@ -75,30 +85,19 @@ public:
 
 private:
     struct Change {
-        std::vector<std::int32_t> opened, failed;
+        std::vector<SideNode> opened;      ///< ascending
+        std::vector<std::int32_t> failed;  ///< sides
     };
-    /// Closed sides of elements with a stress that may reach their strength, each with its index of the envelope.
-    std::vector<std::pair<std::int32_t, double>> watched_sides(const State& state) const;
-    std::vector<std::int32_t> sides_beyond(const State& state);
-    /// Mean of the stresses on both sides of a sub-edge, xx, yy, xy, Pa.
-    std::array<double, 3> mean_stress(const State& state, std::int32_t side, std::size_t part) const;
-    std::array<double, 3> stress(const State& state, const ElementSide& side, std::size_t part) const;
     bool named(const std::vector<NodeCopy>& copies) const;
     void part(const Change& change, State& state);
-    void wake_ends(State& state);
+    void wake_ends(State& state, const std::vector<CrackOpenings::Start>& starts);
 
     Parts parts_;
     std::vector<double> record_;
     std::size_t n_events_ = 0;
     double largest_overshoot_ = 0;
-    std::optional<double> first_opening_;  ///< s
-    // scratch: stresses of packs already asked for in this look
-    mutable std::vector<std::size_t> first_pack_;  ///< of each block
-    mutable std::vector<std::int64_t> seen_;
-    mutable std::vector<double> stresses_;  ///< shape (packs, sub-triangles, 3, lanes)
-    mutable std::int64_t look_ = 0;
-    mutable std::vector<std::int64_t> looked_at_;  ///< per side
-    mutable std::vector<std::int32_t> candidates_;
+    std::optional<double> first_opening_;        ///< s
+    std::unique_ptr<CrackCriterion> criterion_;  ///< null: no side opens
     std::vector<double> force_;
 };
 

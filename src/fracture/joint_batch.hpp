@@ -82,7 +82,9 @@ public:
     double hand_over(std::span<const std::int32_t> sides, const State& accepted,
                      std::span<double> history) const override;
     std::vector<WaitingEnd> waiting(const State& accepted, std::span<const double> history) const override;
-    double wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const override;
+    Start wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const override;
+    void corner_forces(const State& accepted, std::span<const double> history,
+                       std::vector<CornerForce>& forces) const override;
 
 private:
     std::size_t n_packs() const { return padded(n_joints_) / pack_width; }
@@ -364,7 +366,6 @@ void JointBatch<Law, extrinsic>::add_chunk_force(std::size_t chunk, const Trial&
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                                            std::span<double> updated) const {
-    // one thread adds joint by joint; several leave it to the sum below, which adds in the same order
     // one thread adds joint by joint; several leave it to the sum below, which adds in the same order
     if (omp_get_max_threads() == 1) {
         add_packs(first_loose_pack(), n_packs(), trial, history, f, updated);

@@ -152,9 +152,12 @@ JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& 
     result.side = sides_[joint];
     result.length = length(joint);
     result.properties.fill(given(joint));
+    result.strength_factor.fill(1);
     if constexpr (extrinsic)
-        for (std::size_t i = 0; i < joint_points; ++i)
-            result.properties[i] = scaled_strength(result.properties[i], history[entry(joint, factor_row + i)]);
+        for (std::size_t i = 0; i < joint_points; ++i) {
+            result.strength_factor[i] = history[entry(joint, factor_row + i)];
+            result.properties[i] = scaled_strength(result.properties[i], result.strength_factor[i]);
+        }
     double apart = 0, both = 0;
     for (std::size_t i = 0; i < joint_points; ++i) {
         result.opening[i] = motion.opening[i];
@@ -249,17 +252,36 @@ auto JointBatch<Law, extrinsic>::waiting(const State& accepted, std::span<const 
 }
 
 template <class Law, bool extrinsic>
-double JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, double shear,
-                                        std::span<double> history) const {
+auto JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, double shear,
+                                      std::span<double> history) const -> Start {
     if constexpr (extrinsic) {
         const InsertedPoint<double> point = insert_point(given(end.joint), normal, shear);
         for (std::size_t k = 0; k < n_members; ++k)
             history[entry(end.joint, member_row(end.end, k))] = point.history.*CohesionHistory<double>::members[k];
         history[entry(end.joint, factor_row + end.end)] = point.strength_factor;
         history[end.joint / pack_width] = 1;
-        return end.weight * point.offset_energy;
+        return {end.weight * point.offset_energy, point.strength_factor - 1};
     } else {
-        return 0;
+        return {0, 0};
+    }
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::corner_forces(const State& accepted, std::span<const double> history,
+                                               std::vector<CornerForce>& forces) const {
+    if constexpr (extrinsic) {
+        const auto visit = [&](std::size_t pack, const Nodal& f) {
+            for (std::size_t lane = 0; lane < pack_width && pack * pack_width + lane < n_joints_; ++lane) {
+                const std::size_t joint = pack * pack_width + lane;
+                if (history[entry(joint, failure_row)] < 0) continue;
+                const InnerSide& side = inner_->sides()[static_cast<std::size_t>(sides_[joint])];
+                for (std::size_t k = 0; k < joint_nodes; ++k)
+                    forces.push_back({k < joint_points ? side.left.element : side.right.element,
+                                      node(joint, k),
+                                      {f[k].x.get(lane), f[k].y.get(lane)}});
+            }
+        };
+        for_each_pack(0, n_packs(), Trial::of(accepted), history, {}, visit);
     }
 }
 

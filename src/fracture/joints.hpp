@@ -49,6 +49,8 @@ struct JointState {
     std::array<double, 2> damage;                   ///< D, 0 to 1
     std::array<double, 2> fracture_i, fracture_ii;  ///< dissipated so far by fracture in opening, in sliding, J/m2
     std::array<double, 2> friction;                 ///< dissipated so far by friction, J/m2
+    std::array<double, 2> strength_factor;  ///< of `properties` over the strengths given: 1, more for extrinsic ends
+                                            ///< that began beyond them
     double mode;       ///< 1 opening, 0 sliding: o^2/(o^2 + s^2) of both ends where it failed, or as it is now
     double failed_at;  ///< s; 0: it has not failed
 };
@@ -76,6 +78,10 @@ public:
     virtual double hand_over(std::span<const std::int32_t> sides, const State& accepted,
                              std::span<double> history) const = 0;
 
+    /// Appends the forces of extrinsic joints on the elements at both sides.
+    virtual void corner_forces(const State& accepted, std::span<const double> history,
+                               std::vector<CornerForce>& forces) const = 0;
+
     /// An end that waits for a traction while its nodes have parted.
     struct WaitingEnd {
         std::size_t joint;
@@ -86,10 +92,14 @@ public:
         std::int32_t side;
     };
     virtual std::vector<WaitingEnd> waiting(const State& accepted, std::span<const double> history) const = 0;
+    /// What an end begins with.
+    struct Start {
+        double energy;     ///< in its springs, J
+        double overshoot;  ///< of its traction over the strength that it was given, relative, >= 0
+    };
     /// Gives an end its traction, from which it softens.
     /// @param normal, shear  Pa
-    /// @return energy that its springs then hold, J
-    virtual double wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const = 0;
+    virtual Start wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const = 0;
 };
 
 /// @param joints     at least one; their nodes stand at the same places in pairs

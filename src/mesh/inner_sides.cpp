@@ -38,7 +38,7 @@ InnerSides::InnerSides(Mesh& mesh) : mesh_(mesh), number_(3 * mesh.n_elements(),
     }
     std::ranges::sort(found, {}, [](const InnerSide& s) { return std::pair(s.left.element, s.left.side); });
     sides_ = std::move(found);
-    open_.assign(sides_.size(), false);
+    open_.assign(sides_.size(), 0);
     for (std::size_t s = 0; s < sides_.size(); ++s)
         for (const ElementSide& side : {sides_[s].left, sides_[s].right})
             number_[index(side)] = static_cast<std::int32_t>(s);
@@ -60,11 +60,19 @@ InnerSides::InnerSides(Mesh& mesh) : mesh_(mesh), number_(3 * mesh.n_elements(),
     }
 }
 
-std::int32_t InnerSides::bonded(const ElementSide& side) const {
+std::int32_t InnerSides::bonded(const ElementSide& side, std::int32_t node) const {
     const std::int32_t s = number(side);
-    if (s < 0 || is_open(s)) return -1;
+    if (s < 0) return -1;
     const InnerSide& inner = sides_[static_cast<std::size_t>(s)];
-    return inner.left.element == side.element ? inner.right.element : inner.left.element;
+    const bool is_left = inner.left.element == side.element;
+    const auto local = side_nodes(mesh_.kind, side.side);
+    const std::int32_t* nodes = mesh_.element(static_cast<std::size_t>(side.element));
+    const auto found = std::ranges::find_if(local, [&](int k) { return nodes[k] == node; });
+    const auto from_start = static_cast<std::int32_t>(found - local.begin());
+    // the right element walks the other way
+    const std::int32_t place = is_left ? from_start : static_cast<std::int32_t>(local.size()) - 1 - from_start;
+    if (is_open(SideNode{s, place})) return -1;
+    return is_left ? inner.right.element : inner.left.element;
 }
 
 void InnerSides::rename(std::int32_t element, std::int32_t from, std::int32_t to) {
@@ -84,7 +92,7 @@ std::vector<std::int32_t> InnerSides::take_group(std::int32_t node, std::vector<
             const auto local = side_nodes(mesh_.kind, side);
             if (std::ranges::none_of(local, [&](int k) { return nodes[k] == node; })) continue;
             if (std::ranges::binary_search(more, number({e, side}))) continue;
-            const auto other = std::ranges::find(left, bonded({e, side}));
+            const auto other = std::ranges::find(left, bonded({e, side}, node));
             if (other == left.end()) continue;
             group.push_back(*other);
             left.erase(other);
@@ -142,14 +150,25 @@ void InnerSides::split(std::int32_t node, std::vector<NodeCopy>& copies) {
     }
 }
 
-std::vector<NodeCopy> InnerSides::open(std::span<const std::int32_t> sides) {
+std::vector<SideNode> InnerSides::nodes_of(std::span<const std::int32_t> sides) const {
+    const auto n = static_cast<std::int32_t>(side_nodes(mesh_.kind, 0).size());
+    std::vector<SideNode> ends;
+    for (const std::int32_t side : sides)
+        for (std::int32_t place = 0; place < n; ++place) ends.push_back({side, place});
+    return ends;
+}
+
+std::vector<NodeCopy> InnerSides::open(std::span<const std::int32_t> sides) { return open(nodes_of(sides)); }
+
+std::vector<NodeCopy> InnerSides::open(std::span<const SideNode> ends) {
     std::set<std::int32_t> nodes;
-    for (const std::int32_t s : sides) {
-        if (is_open(s)) continue;
-        open_[static_cast<std::size_t>(s)] = true;
-        const ElementSide& side = sides_[static_cast<std::size_t>(s)].left;
-        for (const int k : side_nodes(mesh_.kind, side.side))
-            nodes.insert(mesh_.element(static_cast<std::size_t>(side.element))[k]);
+    for (const SideNode& end : ends) {
+        if (is_open(end)) continue;
+        const auto s = static_cast<std::size_t>(end.side);
+        open_[s] = static_cast<std::uint8_t>(open_[s] | 1U << end.place);
+        const ElementSide& side = sides_[s].left;
+        const auto local = side_nodes(mesh_.kind, side.side);
+        nodes.insert(mesh_.element(static_cast<std::size_t>(side.element))[local[static_cast<std::size_t>(end.place)]]);
     }
     std::vector<NodeCopy> copies;
     for (const std::int32_t node : nodes) split(node, copies);

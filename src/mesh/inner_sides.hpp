@@ -21,8 +21,14 @@ struct NodeCopy {
     std::int32_t original, copy;
 };
 
-/// Opens sides of a mesh. Elements stay together at a node as long as they are bonded to each other around it: those
-/// that are not get nodes of their own, at the same place.
+/// A node of an inner side, by its place in the walking order of the left element: 0, 1, and 2 of a composite.
+struct SideNode {
+    std::int32_t side, place;
+    friend auto operator<=>(const SideNode&, const SideNode&) = default;
+};
+
+/// Opens sides of a mesh, whole or at some of their nodes. Elements stay together at a node as long as they are bonded
+/// to each other around it: those that are not get nodes of their own, at the same place.
 class InnerSides {
 public:
     /// @param mesh  refers to it; changed by open(). Nodes that elements share without a common side at them (two
@@ -33,7 +39,11 @@ public:
     std::span<const InnerSide> sides() const { return sides_; }
     /// The inner side that a side of an element is part of; -1: it is on the contour.
     std::int32_t number(const ElementSide& side) const { return number_[index(side)]; }
-    bool is_open(std::int32_t side) const { return open_[static_cast<std::size_t>(side)]; }
+    /// Whether it is open at one of its nodes at least.
+    bool is_open(std::int32_t side) const { return open_[static_cast<std::size_t>(side)] != 0; }
+    bool is_open(const SideNode& at) const { return (open_[static_cast<std::size_t>(at.side)] >> at.place & 1) != 0; }
+    /// The element across a side of an element that has a node there; -1: none, or not bonded at that node.
+    std::int32_t bonded(const ElementSide& side, std::int32_t node) const;
 
     /// Opens sides, given by their numbers, those that are open already among them or not. Nodes around which elements
     /// have come apart are copied: the elements with the lowest number keep the node, each other group gets a copy at
@@ -41,6 +51,10 @@ public:
     /// labels follow.
     /// @return the copies, in the order of their numbers
     std::vector<NodeCopy> open(std::span<const std::int32_t> sides);
+    /// The same for some nodes of sides: at the others they hold.
+    std::vector<NodeCopy> open(std::span<const SideNode> ends);
+    /// All nodes of these sides.
+    std::vector<SideNode> nodes_of(std::span<const std::int32_t> sides) const;
 
     /// Sides among these whose two faces would have a node of their own each, at one end or between them, if all of
     /// them were opened. One that stands alone inside a mesh of three-noded elements has none: both ends hold together
@@ -72,14 +86,12 @@ private:
     /// @param more  sides that count as open, ascending
     std::vector<std::int32_t> take_group(std::int32_t node, std::vector<std::int32_t>& left,
                                          std::span<const std::int32_t> more) const;
-    /// The element across a side of an element; -1: none, or not bonded.
-    std::int32_t bonded(const ElementSide& side) const;
     void rename(std::int32_t element, std::int32_t from, std::int32_t to);
 
     Mesh& mesh_;
     std::vector<InnerSide> sides_;
-    std::vector<std::int32_t> number_;  ///< shape (n_elements, 3)
-    std::vector<bool> open_;
+    std::vector<std::int32_t> number_;    ///< shape (n_elements, 3)
+    std::vector<std::uint8_t> open_;      ///< bit k: at place k
     std::vector<std::int32_t> elements_;  ///< those at a node one behind the other
     std::vector<std::int32_t> original_;  ///< shape (n_nodes)
     std::vector<Range> at_node_;          ///< of elements_, shape (n_nodes)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -23,6 +24,7 @@ Vec2<double> evaluate(const Field& field, const Vec2<double>& x) { return {field
 
 DeadLoad::DeadLoad(std::string name, std::vector<LoadShare> shares, Amplitude amplitude)
     : name_(std::move(name)), amplitude_(std::move(amplitude)) {
+    std::ranges::copy_if(shares, std::back_inserter(on_edges_), [](const LoadShare& s) { return s.element >= 0; });
     const bool by_place = amplitude_.depends_on_position();
     const auto key = [by_place](const LoadShare& s) {
         return by_place ? std::tuple(s.node, s.at.x, s.at.y) : std::tuple(s.node, 0.0, 0.0);
@@ -46,6 +48,12 @@ void DeadLoad::add_force(const Trial& trial, std::span<double> f) const {
         f[x] += a * share.force.x;
         f[x + 1] += a * share.force.y;
     }
+}
+
+void DeadLoad::corner_forces(const Trial& trial, std::vector<CornerForce>& forces) const {
+    const Amplitude::Instant amplitude = amplitude_.at(trial.t, trial.last_event);
+    for (const LoadShare& share : on_edges_)
+        forces.push_back({share.element, share.node, amplitude(share.at.x, share.at.y) * share.force});
 }
 
 void DeadLoad::add_path_energies(const Trial& from, const Trial& to, PathEnergies& energies) const {
@@ -83,10 +91,10 @@ std::vector<LoadShare> traction_shares(const Mesh& mesh, const std::vector<Bound
         const Vec2<double> a = position(mesh, edge.a), b = position(mesh, edge.b);
         const Vec2<double> t_a = evaluate(value, a), t_b = evaluate(value, b);
         const double sixth = thickness * std::hypot(b.x - a.x, b.y - a.y) / 6;
-        shares.push_back({edge.a, 2 * sixth * t_a, a});
-        shares.push_back({edge.a, sixth * t_b, b});
-        shares.push_back({edge.b, sixth * t_a, a});
-        shares.push_back({edge.b, 2 * sixth * t_b, b});
+        shares.push_back({edge.a, 2 * sixth * t_a, a, edge.element});
+        shares.push_back({edge.a, sixth * t_b, b, edge.element});
+        shares.push_back({edge.b, sixth * t_a, a, edge.element});
+        shares.push_back({edge.b, 2 * sixth * t_b, b, edge.element});
     }
     return shares;
 }

@@ -15,8 +15,9 @@ namespace gneiss {
 /// The part of a load that one node takes from one place.
 struct LoadShare {
     std::int32_t node;
-    Vec2<double> force;  ///< N, at amplitude 1
-    Vec2<double> at;     ///< reference position whose amplitude scales it, m
+    Vec2<double> force;         ///< N, at amplitude 1
+    Vec2<double> at;            ///< reference position whose amplitude scales it, m
+    std::int32_t element = -1;  ///< whose edge it acts on; -1: none's
 };
 
 /// A pattern of nodal forces times an amplitude: nodal forces, tractions and body forces differ in the pattern alone.
@@ -27,12 +28,14 @@ public:
 
     std::string name() const override { return name_; }
     void add_force(const Trial& trial, std::span<double> f) const override;
+    void corner_forces(const Trial& trial, std::vector<CornerForce>& forces) const override;
     void add_path_energies(const Trial& from, const Trial& to, PathEnergies& energies) const override;
     std::vector<double> switch_times() const override { return amplitude_.switch_times(); }
 
 private:
     std::string name_;
     std::vector<LoadShare> shares_;
+    std::vector<LoadShare> on_edges_;  ///< those with an element, as they were given
     Amplitude amplitude_;
 };
 

@@ -169,9 +169,11 @@ public:
 
     /// @param[out] fields  shape (n_sub_triangles)
     virtual void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const = 0;
-    /// Cauchy stresses of a whole pack without their viscous part: far cheaper than point_fields() of its elements.
+    /// Cauchy stresses of a whole pack without their viscous part, and nodal forces with it: far cheaper than
+    /// point_fields() of its elements.
     /// @param[out] cauchy  Pa, shape (n_sub_triangles, 3, pack_width): xx, yy, xy
-    virtual void pack_stress(std::size_t pack, const Evaluation& at, double* cauchy) const = 0;
+    /// @param[out] force   N, shape (n_nodes, 2, pack_width)
+    virtual void pack_response(std::size_t pack, const Evaluation& at, double* cauchy, double* force) const = 0;
     /// "sub-triangle 2, det F = -0.1" of an inverted element.
     virtual std::string describe_inversion(std::size_t local, const Evaluation& at) const = 0;
     /// Stiffness at the start, direction of alpha (rad) and density (kg/m3): what small waves feel.

@@ -28,7 +28,8 @@ FollowerPressure::FollowerPressure(std::string name, const Mesh& mesh, const std
     for (const BoundaryEdge& edge : edges) {
         const auto& a = mesh.nodes[static_cast<std::size_t>(edge.a)];
         const auto& b = mesh.nodes[static_cast<std::size_t>(edge.b)];
-        edges_.push_back({edge.a, edge.b, {a[0], a[1]}, {b[0], b[1]}, value(a[0], a[1]), value(b[0], b[1])});
+        edges_.push_back(
+            {edge.a, edge.b, edge.element, {a[0], a[1]}, {b[0], b[1]}, value(a[0], a[1]), value(b[0], b[1])});
     }
 }
 
@@ -46,6 +47,15 @@ void FollowerPressure::add_force(const Trial& trial, std::span<double> f) const 
         const auto [force_a, force_b] = forces(edge, amplitude, trial.u);
         add(f, edge.a, force_a);
         add(f, edge.b, force_b);
+    }
+}
+
+void FollowerPressure::corner_forces(const Trial& trial, std::vector<CornerForce>& corners) const {
+    const Amplitude::Instant amplitude = amplitude_.at(trial.t, trial.last_event);
+    for (const Edge& edge : edges_) {
+        const auto [force_a, force_b] = forces(edge, amplitude, trial.u);
+        corners.push_back({edge.element, edge.a, force_a});
+        corners.push_back({edge.element, edge.b, force_b});
     }
 }
 

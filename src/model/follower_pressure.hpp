@@ -25,6 +25,7 @@ public:
 
     std::string name() const override { return name_; }
     void add_force(const Trial& trial, std::span<double> f) const override;
+    void corner_forces(const Trial& trial, std::vector<CornerForce>& forces) const override;
     std::vector<std::array<std::int32_t, 2>> couplings() const override;
     void stiffness(const Trial& trial, std::span<Stiffness> df_du) const override;
     void add_path_energies(const Trial& from, const Trial& to, PathEnergies& energies) const override;
@@ -32,7 +33,7 @@ public:
 
 private:
     struct Edge {
-        std::int32_t a, b;
+        std::int32_t a, b, element;
         Vec2<double> x_a, x_b;  ///< reference positions, m
         double p_a, p_b;        ///< at amplitude 1, Pa
     };

@@ -8,9 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "base/vec2.hpp"
 #include "system/state.hpp"
 
 namespace gneiss {
+
+/// A part of a nodal force that acts on one element: it stays with that element where the node parts.
+struct CornerForce {
+    std::int32_t element, node;
+    Vec2<double> force;  ///< N
+};
 
 /// A contribution without internal variables that acts on few nodes: a load.
 class ForceTerm {
@@ -20,6 +27,12 @@ public:
 
     /// Adds its forces, N, to f of shape (2 n_nodes). Pure; called by one thread, in the order of the terms.
     virtual void add_force(const Trial& trial, std::span<double> f) const = 0;
+
+    /// Appends what of its forces acts on edges of elements, element by element; by default nothing is known of them.
+    virtual void corner_forces(const Trial& trial, std::vector<CornerForce>& forces) const {
+        (void)trial;
+        (void)forces;
+    }
 
     /// Pairs of nodes (a, b) where the force on a depends on the displacement of b, in any order; a pair may occur more
     /// than once. The nodes of a pair belong to one element.

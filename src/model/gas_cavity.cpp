@@ -9,6 +9,7 @@
 
 #include "base/dual.hpp"
 #include "base/errors.hpp"
+#include "model/edge_pressure.hpp"
 
 namespace gneiss {
 namespace {
@@ -30,7 +31,7 @@ GasCavity::GasCavity(const LumpedOptions& options, const Mesh& mesh, const std::
     // any point does where the boundary closes; a near one leaves areas their digits
     centre_ = options.about ? Vec2<double>{(*options.about)[0], (*options.about)[1]} : place(edges.front().a);
     for (const BoundaryEdge& edge : edges)
-        segments_.push_back({edge.a, edge.b, place(edge.a) - centre_, place(edge.b) - centre_});
+        segments_.push_back({edge.a, edge.b, place(edge.a) - centre_, place(edge.b) - centre_, edge.element});
     const bool closed = close(mesh);
     const std::string where = fmt::format("on = \"{}\": ", options.on);
     if (!closed && !options.about)
@@ -68,7 +69,7 @@ bool GasCavity::close(const Mesh& mesh) {
         });
         const Vec2<double> x = Vec2<double>{place[0], place[1]} - centre_;
         for (std::size_t k = 0; k < std::min(at.in.size(), at.out.size()); ++k)
-            segments_.push_back({at.in[k], at.out[k], x, x});
+            segments_.push_back({at.in[k], at.out[k], x, x, -1});
     }
     return closed;
 }
@@ -145,6 +146,17 @@ void GasCavity::add_force(const Trial& at, std::span<double> f) const {
         const Vec2<double> a = s.x_a + at_node(at.u, s.a), b = s.x_b + at_node(at.u, s.b);
         add(s.a, -half * b.y, half * b.x);
         add(s.b, half * a.y, -half * a.x);
+    }
+}
+
+void GasCavity::corner_forces(const Trial& at, std::vector<CornerForce>& forces) const {
+    const double p = pressure(at);
+    for (const Segment& s : segments_) {
+        if (s.element < 0) continue;
+        const Vec2<double> edge = (s.x_b - s.x_a) + (at_node(at.u, s.b) - at_node(at.u, s.a));
+        const auto [force_a, force_b] = edge_pressure_forces(edge, p, p, thickness_);
+        forces.push_back({s.element, s.a, force_a});
+        forces.push_back({s.element, s.b, force_b});
     }
 }
 

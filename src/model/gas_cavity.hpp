@@ -41,6 +41,7 @@ public:
     void initial_internal(std::span<double> z) const override;
 
     void add_force(const Trial& at, std::span<double> f) const override;
+    void corner_forces(const Trial& at, std::vector<CornerForce>& forces) const override;
     void internal_rate(const Trial& at, std::span<double> rate) const override;
     /// V linear in time along the step, exponentials of mean rates: positive for any step, order 2, symmetric in time.
     void update_internal(const Trial& from, const Trial& to, std::span<double> z) const override;
@@ -68,6 +69,7 @@ private:
     struct Segment {
         std::int32_t a, b;
         Vec2<double> x_a, x_b;  ///< reference positions about centre_, m
+        std::int32_t element;   ///< -1: a line across the mouth of a crack
     };
     /// a and e, Pa, over any scalar.
     template <class T>

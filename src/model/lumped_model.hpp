@@ -39,6 +39,8 @@ public:
 
     // ---- its part of f and g
     virtual void add_force(const Trial& at, std::span<double> f) const = 0;
+    /// As ForceTerm::corner_forces().
+    virtual void corner_forces(const Trial& at, std::vector<CornerForce>& forces) const { (void)at, (void)forces; }
     virtual bool depends_on_velocity() const { return false; }
     /// z' at a trial.
     virtual void internal_rate(const Trial& at, std::span<double> rate) const {

@@ -73,6 +73,11 @@ void LumpedModels::add_force(const State& accepted, const Trial& trial, std::spa
     }
 }
 
+void LumpedModels::corner_forces(const State& state, std::vector<CornerForce>& forces) const {
+    for (std::size_t i = 0; i < all_.size(); ++i)
+        all_[i]->corner_forces(Seen(*this, i, state, Trial::of(state)).at, forces);
+}
+
 void LumpedModels::internal_rate(const Trial& trial, std::span<double> rate) const {
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const std::size_t n = starts_[i + 1] - starts_[i];

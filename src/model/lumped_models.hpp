@@ -29,6 +29,7 @@ public:
     bool depend_on_velocity() const;
     /// @param[out] z  whole z that accepting the trial would leave; empty: not wanted
     void add_force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z) const;
+    void corner_forces(const State& state, std::vector<CornerForce>& forces) const;
     void internal_rate(const Trial& trial, std::span<double> rate) const;
 
     void stiffness(std::size_t i, const State& accepted, const Trial& trial,

@@ -89,7 +89,16 @@ struct FractureOptions {
         y_code      ///< the same with Y-code's law
     };
     Method method = Method::none;
-    double penalty = 20;         ///< stiffness of joints: this times the P-wave modulus over the edge's length, > 0
+    /// When sides open (extrinsic).
+    enum class Criterion {
+        nodal,   ///< where no tractions inside the envelope hold the elements around a node together
+        mean,    ///< where the mean of the tractions of the two elements reaches the envelope
+        larger,  ///< where the larger one of them does
+    };
+    Criterion criterion = Criterion::nodal;
+    double overshoot = 0;  ///< how far tractions may be beyond the strength where sides open, -, >= 0; 0: 0.01, or
+                           ///< what a step brings under explicit schemes that the mesh limits
+    double penalty = 20;   ///< stiffness of joints: this times the P-wave modulus over the edge's length, > 0
     double weibull_modulus = 0;  ///< scatter of strengths from edge to edge, > 0; 0: none
     int seed = 0;                ///< of the scatter, >= 0
 };

@@ -159,6 +159,11 @@ void SolidSystem::add_rest(const State& accepted, const Trial& trial, std::span<
     models_.add_force(accepted, trial, f, z);
 }
 
+void SolidSystem::corner_forces(const State& state, std::vector<CornerForce>& forces) const {
+    for (const auto& term : terms_) term->corner_forces(Trial::of(state), forces);
+    models_.corner_forces(state, forces);
+}
+
 void SolidSystem::external_force(const Trial& trial, std::span<double> f) const {
     std::ranges::fill(f, 0.0);
     for (const auto& term : terms_) term->add_force(trial, f);

@@ -77,9 +77,15 @@ public:
     std::span<double> history_of(const Interaction& interaction, State& accepted) const {
         return interactions_.part(interaction, accepted);
     }
+    std::span<const double> history_of(const Interaction& interaction, const State& accepted) const {
+        return interactions_.part(interaction, const_cast<State&>(accepted));
+    }
 
     /// An event that goes before the interactions' own looks at the state.
     void add_event(std::unique_ptr<Event> event) { events_.insert(events_.begin() + 1, std::move(event)); }
+
+    /// Forces of loads and lumped models on edges of elements, appended.
+    void corner_forces(const State& state, std::vector<CornerForce>& forces) const;
 
     /// Values at every sub-triangle of every element, shape (n_elements, sub-triangles), in the mesh's order.
     std::vector<PointFields> point_fields(const State& state) const;

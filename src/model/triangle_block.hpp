@@ -49,7 +49,8 @@ public:
     GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
     void point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const override;
-    GNEISS_FLATTEN void pack_stress(std::size_t pack, const Evaluation& at, double* cauchy) const override;
+    GNEISS_FLATTEN void pack_response(std::size_t pack, const Evaluation& at, double* cauchy,
+                                      double* force) const override;
     std::string describe_inversion(std::size_t local, const Evaluation& at) const override;
     MunjizaConstants tangent_constants(std::size_t local) const override;
     double axis_angle(std::size_t local) const override { return info_.axis_angle[local]; }

@@ -119,7 +119,8 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
 }
 
 template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::pack_stress(std::size_t pack, const Evaluation& at, double* cauchy) const {
+void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, const Evaluation& at, double* cauchy,
+                                                          double* force) const {
     const PackGeometry g = geometry(pack);
     const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
     const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
@@ -128,6 +129,16 @@ void TriangleBlock<Element, sampling, Law>::pack_stress(std::size_t pack, const 
         sigma.xx.store_unaligned(cauchy);
         sigma.yy.store_unaligned(cauchy + pack_width);
         sigma.xy.store_unaligned(cauchy + 2 * pack_width);
+    }
+    Nodal<Pack> f;
+    triangle_force(kinematics, g, stress, f);
+    if (viscous()) {
+        const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+        add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
+    }
+    for (int node = 0; node < Element::n_nodes; ++node, force += 2 * pack_width) {
+        f[node].x.store_unaligned(force);
+        f[node].y.store_unaligned(force + pack_width);
     }
 }
 

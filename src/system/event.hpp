@@ -42,6 +42,8 @@ public:
     /// below nothing is known of when it will. None: there is nothing to search for.
     virtual bool has_indicator() const { return false; }
     virtual double indicator(const State&) const { return -1; }
+    /// > 0: the event may be found with an indicator up to this. A step that ends beyond it is taken again, shorter.
+    virtual double indicator_tolerance() const { return 0; }
 
     /// Finds anew in this state what it has found on the way and no checkpoint holds (a search of contacts). Called
     /// where a checkpoint is written and where one is taken up: both runs then go on alike.

@@ -35,23 +35,21 @@ double first_instant(std::initializer_list<double> times) {
     return first;
 }
 
-/// The largest indicator of the events that have one.
-double indicator_of(const SemiDiscrete& system, const State& state) {
-    double largest = -1;
-    for (const auto& event : system.events())
-        if (event->has_indicator()) largest = std::max(largest, event->indicator(state));
-    return largest;
-}
-
-/// Searches for the instant at which an indicator rises to zero, by steps that are taken again.
+/// Searches for the instant at which an indicator rises to zero, by steps that are taken again: to within a time, or
+/// until it is no larger than its event allows.
 class EventSearch {
 public:
     EventSearch(const SemiDiscrete& system, Integrator& integrator, double tolerance)
         : system_(system), integrator_(integrator), tolerance_(tolerance) {}
 
+    /// Whether there is anything to search for.
+    bool wanted() const {
+        return std::ranges::any_of(system_.events(), [&](const auto& event) { return searched(*event); });
+    }
+
     /// A step as advance() takes it, which ends at the latest where an event is known to have happened.
     StepReport advance(State& state, double stop) {
-        const double before = indicator_of(system_, state);
+        const double before = indicator_of(state);
         if (!(before < 0)) {
             crossed_.reset();
             return integrator_.advance(system_, state, stop);
@@ -64,12 +62,13 @@ public:
             StepReport step = integrator_.advance(system_, state, crossed_ ? guess(start.t, before) : stop);
             step.n_rejected += n_rejected;
             step.n_force += n_force;
-            const double now = indicator_of(system_, state);
-            if (now < 0 || is_short(start.t, state.t)) {
+            const double now = indicator_of(state);
+            if (now <= allowed_ || is_short(start.t, state.t)) {
                 if (now >= 0 || (crossed_ && !(state.t < *crossed_))) crossed_.reset();
                 if (crossed_) slow_ = *crossed_ - state.t > 0.5 * way;
                 return step;
             }
+            if (!crossed_) whole_ = state.t - start.t;
             slow_ = crossed_ && state.t - start.t > 0.5 * way;
             crossed_ = state.t;
             after_ = now;
@@ -81,23 +80,48 @@ public:
     }
 
 private:
-    /// No step has to be shorter than the tolerance, or than round-off lets it be.
-    bool is_short(double from, double to) const { return to - from <= tolerance_ || reached(from, to); }
+    bool searched(const Event& event) const {
+        return event.has_indicator() && (tolerance_ > 0 || event.indicator_tolerance() > 0);
+    }
+    /// The largest indicator of the events that are searched for; `allowed_` is what that event allows.
+    double indicator_of(const State& state) {
+        double largest = -1;
+        allowed_ = below_zero;
+        for (const auto& event : system_.events())
+            if (searched(*event))
+                if (const double indicator = event->indicator(state); indicator > largest) {
+                    largest = indicator;
+                    allowed_ = tolerance_ > 0 ? below_zero : event->indicator_tolerance();
+                }
+        return largest;
+    }
+
+    /// No step has to be shorter than the tolerance, or than round-off lets it be; where it is the indicator that has
+    /// one, than a ten-thousandth of the step that was too long: then the indicator jumps.
+    bool is_short(double from, double to) const {
+        return to - from <= (tolerance_ > 0 ? tolerance_ : 1e-4 * whole_) || reached(from, to);
+    }
 
     /// Where a straight line says that it happens, but not closer than half the tolerance to either end; the middle
-    /// where nothing is known of before, or where the last line has not halved what is left.
+    /// where nothing is known of before, or where the last line has not halved what is left. An indicator with a
+    /// tolerance is aimed at half of that.
     double guess(double t, double before) const {
         if (is_short(t, *crossed_)) return *crossed_;
-        const double way = *crossed_ - t, room = std::min(0.5, 0.5 * tolerance_ / way);
+        const double way = *crossed_ - t, room = tolerance_ > 0 ? std::min(0.5, 0.5 * tolerance_ / way) : 0.01;
+        const double target = 0.5 * std::max(allowed_, 0.0);
         const bool straight = before > -1 && after_ > 0 && !slow_;
-        return t + way * std::clamp(straight ? before / (before - after_) : 0.5, room, 1 - room);
+        return t + way * std::clamp(straight ? (before - target) / (before - after_) : 0.5, room, 1 - room);
     }
+
+    static constexpr double below_zero = -std::numeric_limits<double>::min();
 
     const SemiDiscrete& system_;
     Integrator& integrator_;
     double tolerance_;
     std::optional<double> crossed_;  ///< an instant at which it will have happened, s
     double after_ = 0;               ///< the indicator there
+    double allowed_ = 0;             ///< an indicator up to this is near enough
+    double whole_ = 0;               ///< length of the step that was first found too long, s
     bool slow_ = false;              ///< the last trial has left more than half of the way to it
 };
 
@@ -126,11 +150,9 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
         integrator.start(system, state, StartReason::fresh);
     }
     if (after_start) after_start();
-    const bool searches =
-        event_tolerance > 0 && std::ranges::any_of(system.events(), &Event::has_indicator,
-                                                   [](const auto& event) -> const Event& { return *event; });
-    const bool unseen = next_look && !searches;
     EventSearch search(system, integrator, event_tolerance);
+    const bool searches = search.wanted();
+    const bool unseen = next_look && !searches;
     try {
         while (state.t < t_end) {
             const double planned = next_stop ? next_stop(state.t) : t_end;

@@ -50,7 +50,7 @@ inline CrackingSolid cracking_solid(Mesh mesh, const SolidDescription& what, con
     const std::vector<JointEdge> edges = all_edges(*solid.mesh, *solid.inner);
     std::vector<std::string> warnings;
     auto properties = edge_properties(*solid.mesh, edges, parts.blocks, what.materials, fracture, {}, {}, warnings);
-    watch_strength(edges, properties, parts.blocks);
+    watch_strength(*solid.mesh, edges, properties, parts.blocks, watch_reach(fracture.criterion));
     auto joints = make_extrinsic_joints(*solid.inner, properties, what.solid.thickness);
     Joints& cohesion = *joints;
     parts.interactions.push_back(std::move(joints));
@@ -60,6 +60,8 @@ inline CrackingSolid cracking_solid(Mesh mesh, const SolidDescription& what, con
                                                                .solid = *solid.system,
                                                                .joints = cohesion,
                                                                .properties = std::move(properties),
+                                                               .criterion = fracture.criterion,
+                                                               .thickness = what.solid.thickness,
                                                                .surroundings = surroundings});
     solid.cracking = cracking.get();
     solid.system->add_event(std::move(cracking));

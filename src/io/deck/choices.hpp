@@ -184,6 +184,14 @@ inline const std::array<Choice<std::string>, 4> verlet_compositions{{
     {"mclachlan_5", "mclachlan_5", "5 sub-steps, order 4 (McLachlan)"},
 }};
 
+inline constexpr std::array<Choice<FractureOptions::Criterion>, 3> crack_criteria{{
+    {"nodal", FractureOptions::Criterion::nodal,
+     "a node parts where no tractions inside the envelope keep the elements around it together: the limit of "
+     "`intrinsic` for stiff joints"},
+    {"mean", FractureOptions::Criterion::mean, "a side opens where the mean traction of its two elements reaches it"},
+    {"larger", FractureOptions::Criterion::larger, "a side opens where the larger traction of its two elements does"},
+}};
+
 inline constexpr std::array<Choice<FractureOptions::Method>, 4> fracture_methods{{
     {"none", FractureOptions::Method::none, "elements stay together"},
     {"extrinsic", FractureOptions::Method::extrinsic,

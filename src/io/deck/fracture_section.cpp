@@ -105,6 +105,15 @@ const Section<FractureOptions>& fracture_section() {
     const std::vector<Condition> jointed{{"method", {"extrinsic", "intrinsic", "y_code"}}};
     static const Section<F> section{
         {choice("method", &F::method, fracture_methods, {.meaning = "how edges crack"}),
+         choice("criterion", &F::criterion, crack_criteria,
+                {.only_for = {{"method", {"extrinsic"}}}, .meaning = "when sides open"}),
+         number("overshoot", &F::overshoot,
+                {.range = at_least(0),
+                 .only_for = {{"method", {"extrinsic"}}},
+                 .meaning = "how far tractions may be beyond the strength where sides open, relative: a step that ends "
+                            "beyond is taken again, shorter; 0: 0.01, or, under central_difference, verlet and "
+                            "noh_bathe, whose steps are short, what a step brings. `run.event_tolerance` goes before "
+                            "it"}),
          number("penalty", &F::penalty,
                 {.range = above(0),
                  .only_for = jointed,

@@ -44,7 +44,8 @@ def beam_length(opening: ArrayLike, force: ArrayLike) -> NDArray[np.float64]:
     return np.cbrt(np.asarray(opening) * YOUNG * ARM**3 / (8 * np.asarray(force)))
 
 
-def deck(element: str, cells: int, penalty: float, last: float, steps: int, dynamic: bool = False) -> Deck:
+def deck(element: str, cells: int, penalty: float, last: float, steps: int, dynamic: bool = False,
+         method: str = "intrinsic") -> Deck:
     """cells: along the height of an arm; last: crack length over the height of an arm in the end."""
     cell = ARM / cells
     length = cell * np.ceil((last + 5) * ARM / cell)
@@ -53,7 +54,7 @@ def deck(element: str, cells: int, penalty: float, last: float, steps: int, dyna
     start = 0.4
     amplitude = {"type": "expression", "expression": f"({start} + {1 - start}*t/{t_end})^2 - {start**2}*(1 - t/{t_end})^2"}
     return {
-        "title": f"fracture: double cantilever beam, {element}",
+        "title": f"fracture: double cantilever beam, {element}, {method}",
         "mesh": {"generator": "rectangle", "width": float(length), "height": 2 * ARM, "origin": [0.0, -ARM],
                  "cells": [round(length / cell), 2 * cells], "pattern": "alternating",
                  "parts": [{"name": "upper", "of": "left", "from": [0.0, cell / 2], "to": [0.0, ARM]},
@@ -62,7 +63,7 @@ def deck(element: str, cells: int, penalty: float, last: float, steps: int, dyna
                            {"name": "seam", "from": [NOTCH, 0.0], "to": [float(length), 0.0]}]},
         "solid": {"element": element, "plane": "stress"},
         "material": [{"density": DENSITY, "constants": {"E": YOUNG, "nu": POISSON}, "strength": ARMS}],
-        "fracture": {"method": "intrinsic", "penalty": penalty},
+        "fracture": {"method": method, "penalty": penalty},
         "crack": [{"on": "notch"}],
         "interface": [{"on": "seam", "strength": SEAM}],
         "boundary": [{"on": "upper", "type": "displacement", "value": ["free", end / 2], "amplitude": amplitude},
