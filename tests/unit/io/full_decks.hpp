@@ -36,7 +36,9 @@ constants = { M_v = 0, M_alpha = 1e9, M_beta = 2e9, M_psi = 1e9 }
 stress_map = "direct"
 strength = { tensile = [1e6, 3e6], cohesion = 5e6, friction = 0.6, residual_friction = 0.4, G_I = [50, 200.0], G_II = 500 }
 [fracture]
-method = "intrinsic"
+method = "extrinsic"
+criterion = "larger"
+overshoot = 0.02
 penalty = 30
 weibull_modulus = 12
 seed = 3
