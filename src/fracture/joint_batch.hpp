@@ -107,7 +107,7 @@ private:
     }
     /// Whether untouched joints stay elastic at this trial.
     bool stay_elastic(std::size_t pack, const Nodal& u) const {
-        // most ends are far from their strengths: then neither these nor the direction of the joint matter
+        // most ends are far from their strengths, and from where the direction of the joint matters
         const Vec2<Pack> start = u[2] - u[0], end = u[3] - u[1];
         const Pack reach_squared = load(elastic_, 2 * pack + 1);
         if (every_lane(xsimd::max(dot(start, start), dot(end, end)) <= reach_squared)) return true;
