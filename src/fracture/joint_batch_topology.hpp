@@ -1,5 +1,5 @@
 #pragma once
-// How joints are put in order and follow a mesh that comes apart, and what is told of one of them: the second half of
+// How joints are put in order and follow a mesh that comes apart, and what is told of one of them: another part of
 // joint_batch.hpp.
 
 #include "fracture/joint_batch.hpp"

@@ -1,5 +1,6 @@
 #include "fracture/joints.hpp"
 
+#include "fracture/joint_batch_energies.hpp"
 #include "fracture/joint_batch_topology.hpp"
 #include "fracture/y_code_law.hpp"
 
