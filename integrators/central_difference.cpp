@@ -54,8 +54,7 @@ void CentralDifference::allocate(const SemiDiscrete& system) {
 
 void CentralDifference::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
-    // of this integrator's last acceleration: there is none before a run begins
-    const double measure_before = a_.empty() ? 0 : acceleration_measure();
+    const double before = LeapfrogEnergy::square(a_, inverse_mass_, partial_);
     if (anew) allocate(system);
     step_.start(system, state, why);
     hold_constraints(system, state, why);
@@ -71,10 +70,7 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     average(system, state, Trial::of(state));
     settle(system, state);
     for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];
-    // the leapfrog's kinetic energy jumps with the acceleration: work of the load that has been switched, or of what
-    // held together until now
-    if (why == StartReason::reinitialise) state.path.external_work -= acceleration_measure() - measure_before;
-    if (why == StartReason::resize) state.path.splitting -= acceleration_measure() - measure_before;
+    energy_.start(why, before, LeapfrogEnergy::square(a_, inverse_mass_, partial_));
 }
 
 void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
@@ -91,13 +87,9 @@ void CentralDifference::settle(const SemiDiscrete& system, const State& state) {
     for (const Constraint& constraint : constraints) a_[constraint.dof] = 0;
 }
 
-double CentralDifference::acceleration_measure() const {
-    return leapfrog_excess(step_.dt(), a_, inverse_mass_, partial_);
-}
-
 void CentralDifference::hold_constraints(const SemiDiscrete& system, State& state, StartReason why) {
     const auto constraints = system.constraints();
-    if (constraints.empty()) return;
+    if (constraints.empty() || why == StartReason::recover) return;
     system.constraint_values(state.t, state.last_event, prescribed_);
     system.constraint_values(state.t + 0.5 * step_.dt(), state.last_event, middle_);
     system.constraint_values(state.t + step_.dt(), state.last_event, end_velocity_);
@@ -370,12 +362,14 @@ void CentralDifference::subtract_damping(const SemiDiscrete& system, std::span<c
 }
 
 double CentralDifference::kinetic_energy(const SemiDiscrete& system, const State& state) const {
-    return synchronised_kinetic_energy(system, state.v, partial_) - acceleration_measure();
+    return synchronised_kinetic_energy(system, state.v, partial_) -
+           energy_.excess(step_.dt(), a_, inverse_mass_, partial_);
 }
 
 IntegratorMemory CentralDifference::save() const {
     IntegratorMemory memory{{"acceleration", a_}, {"net_force", net_}, {"reactions", reactions_}};
     step_.save(memory);
+    energy_.save(memory);
     return memory;
 }
 
@@ -388,6 +382,7 @@ void CentralDifference::load(const SemiDiscrete& system, State&, const Integrato
     net_ = take("net_force", net_.size());
     reactions_ = take("reactions", reactions_.size());
     step_.load(name(), memory);
+    energy_.load(name(), memory);
 }
 
 }  // namespace gneiss

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "integrators/absorbing_nodes.hpp"
+#include "integrators/leapfrog_energy.hpp"
 #include "integrators/local_steps.hpp"
 #include "integrators/stable_step.hpp"
 #include "system/integrator.hpp"
@@ -30,7 +31,7 @@ public:
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     /// One pass over the nodes per step instead of two, where neither forces nor energies need v(n).
     StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) override;
-    /// 1/2 v(n-1/2) . M v(n+1/2): with it the leapfrog conserves the energy of a linear system to round-off.
+    /// With it the leapfrog conserves the energy of a linear system to round-off; see LeapfrogEnergy.
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions() const override { return reactions_; }
     WorkCounts work() const override { return {.elements = n_local_ + (local_ ? local_->n_evaluated() : 0)}; }
@@ -45,8 +46,6 @@ private:
     void allocate(const SemiDiscrete& system);
     /// Position (of a new run) and velocity of prescribed motion at the instant of a start.
     void hold_constraints(const SemiDiscrete& system, State& state, StartReason why);
-    /// dt^2/8 a . M a, J: what v(n) . M v(n)/2 exceeds v(n-1/2) . M v(n+1/2)/2 by.
-    double acceleration_measure() const;
     /// Chooses the next step, and the time in next_.
     void plan_step(const SemiDiscrete& system, const State& state, double t_stop);
     void kick_and_drift(const SemiDiscrete& system, const State& state);
@@ -91,6 +90,7 @@ private:
     int levels_;
     std::unique_ptr<LocalSteps> local_;  ///< null: one step for all elements
     std::size_t n_local_ = 0;            ///< elements evaluated by earlier local_
+    LeapfrogEnergy energy_;
     std::vector<double> inverse_mass_;
     std::vector<double> a_;       ///< acceleration at the accepted state; f while a step is under way
     std::vector<double> v_half_;  ///< v(n+1/2), kept where the force needs another velocity

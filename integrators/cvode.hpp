@@ -14,9 +14,9 @@ public:
         Method method = Method::bdf;
         int max_order = 0;  ///< BDF 1 to 5, Adams 1 to 12; 0: the largest
         Iteration iteration = Iteration::newton;
-        /// Lowers the order of BDF where steps are limited by the instability of orders 3 to 5 near the imaginary axis,
-        /// which is where undamped vibration is.
-        bool stability_detection = true;
+        /// Lowers the order of BDF where SUNDIALS' detection finds orders 3 to 5 unstable. Of undamped vibration it finds
+        /// too little too late, and its steps cost more than a smaller tolerance does  [decision 027].
+        bool stability_detection = false;
 
         /// @throws InputError
         void validate() const;

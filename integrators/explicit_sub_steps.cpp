@@ -39,7 +39,7 @@ double ExplicitSubSteps::damping_rate(const SemiDiscrete& system) const {
 }
 
 void ExplicitSubSteps::start(const SemiDiscrete& system, State& state, StartReason why) {
-    const double excess_before = a_.empty() ? 0 : excess();
+    const double before = LeapfrogEnergy::square(a_, inverse_mass_, partial_);
     step_.start(system, state, why, damping_rate(system));
     if (why == StartReason::fresh) omega_ = step_.omega();
     if (why != StartReason::reinitialise) allocate(system);
@@ -49,9 +49,7 @@ void ExplicitSubSteps::start(const SemiDiscrete& system, State& state, StartReas
     motion_.reactions(system, state.v, f_, reactions_);
     accelerate(system, state.v);
     a_.swap(a_new_);
-    // as of the central difference: its kinetic energy jumps with the acceleration
-    if (why == StartReason::reinitialise) state.path.external_work -= excess() - excess_before;
-    if (why == StartReason::resize) state.path.splitting -= excess() - excess_before;
+    energy_.start(why, before, LeapfrogEnergy::square(a_, inverse_mass_, partial_));
 }
 
 StepReport ExplicitSubSteps::advance(const SemiDiscrete& system, State& state, double t_stop) {
@@ -151,17 +149,15 @@ void ExplicitSubSteps::accelerate(const SemiDiscrete& system, std::span<const do
     for (const Constraint& constraint : system.constraints()) a_new_[constraint.dof] = 0;
 }
 
-double ExplicitSubSteps::excess() const {
-    return has_excess() ? leapfrog_excess(step_.dt(), a_, inverse_mass_, partial_) : 0;
-}
-
 double ExplicitSubSteps::kinetic_energy(const SemiDiscrete& system, const State& state) const {
-    return synchronised_kinetic_energy(system, state.v, partial_) - excess();
+    const double synchronised = synchronised_kinetic_energy(system, state.v, partial_);
+    return has_excess() ? synchronised - energy_.excess(step_.dt(), a_, inverse_mass_, partial_) : synchronised;
 }
 
 IntegratorMemory ExplicitSubSteps::save() const {
     IntegratorMemory memory{{"acceleration", a_}, {"reactions", reactions_}, {"omega", {omega_}}};
     step_.save(memory);
+    energy_.save(memory);
     return memory;
 }
 
@@ -174,6 +170,7 @@ void ExplicitSubSteps::load(const SemiDiscrete& system, State&, const Integrator
     a_ = take_entry("acceleration", a_.size());
     reactions_ = take_entry("reactions", reactions_.size());
     step_.load(name(), memory, damping_rate(system));
+    energy_.load(name(), memory);
 }
 
 }  // namespace gneiss

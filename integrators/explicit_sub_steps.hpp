@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/absorbing_nodes.hpp"
+#include "integrators/leapfrog_energy.hpp"
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/stable_step.hpp"
 
@@ -35,7 +36,7 @@ protected:
     virtual int evaluations_with_velocity() const { return 1; }
     /// Whether C limits the step, as viscous stress does.
     virtual bool damping_limits() const { return false; }
-    /// Whether 1/2 v . M v less leapfrog_excess() is the kinetic energy in which the balance is sharpest.
+    /// Whether 1/2 v . M v less LeapfrogEnergy::excess() is the kinetic energy in which the balance is sharpest.
     virtual bool has_excess() const { return false; }
 
     // ---- what it builds on
@@ -68,11 +69,11 @@ protected:
 
 private:
     double damping_rate(const SemiDiscrete& system) const;
-    double excess() const;
     /// a_new_ from the forces f_ at a velocity.
     void accelerate(const SemiDiscrete& system, std::span<const double> v);
 
     StableStep step_;
+    LeapfrogEnergy energy_;
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     std::size_t n_force_ = 0;
     std::vector<double> inverse_mass_;

@@ -44,6 +44,13 @@ void LoadStepping::start(const SemiDiscrete& system, State& state, StartReason w
     state.path.viscous_power = 0;
     system.force(state, Trial::of(state), f_);
     for (std::size_t k = 0; k < reactions_.size(); ++k) reactions_[k] = -f_[system.constraints()[k].dof];
+    if (why == StartReason::fresh || why == StartReason::reinitialise) find_jump(system);
+}
+
+void LoadStepping::find_jump(const SemiDiscrete& system) {
+    jumped_ = true;
+    jump_ = f_;
+    for (const Constraint& constraint : system.constraints()) jump_[constraint.dof] = 0;
 }
 
 StepReport LoadStepping::advance(const SemiDiscrete& system, State& state, double t_stop) {
@@ -120,13 +127,17 @@ double LoadStepping::accept(const SemiDiscrete& system, State& state) {
         reactions_[k] = -f_[dof];
         f_[dof] = 0;
     }
+    if (jumped_)
+        for (std::size_t i = 0; i < jump_.size(); ++i)
+            next_.path.external_work -= 0.5 * jump_[i] * (next_.u[i] - state.u[i]);
+    jumped_ = false;
     std::swap(state, next_);
     double unbalanced = 0;
     for (const double force : f_) unbalanced = std::max(unbalanced, std::abs(force));
     return unbalanced;
 }
 
-void LoadStepping::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
+void LoadStepping::load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) {
     allocate_all(system);
     const auto take = [&](const char* entry, std::size_t size) -> const std::vector<double>& {
         return remembered(memory, name(), entry, size);
@@ -134,6 +145,10 @@ void LoadStepping::load(const SemiDiscrete& system, State&, const IntegratorMemo
     reactions_ = take("reactions", reactions_.size());
     dt_ = take("step", 2)[0];
     first_dt_ = take("step", 2)[1];
+    jumped_ = false;
+    if (take("jumped", 1)[0] == 0) return;
+    system.force(state, Trial::of(state), f_);
+    find_jump(system);
 }
 
 }  // namespace gneiss

@@ -38,15 +38,4 @@ inline double synchronised_kinetic_energy(const SemiDiscrete& system, std::span<
            });
 }
 
-/// dt^2/8 a . M a, J: what v(n) . M v(n)/2 of the leapfrog exceeds v(n-1/2) . M v(n+1/2)/2 by.
-/// @param partial  scratch
-inline double leapfrog_excess(double dt, std::span<const double> a, std::span<const double> inverse_mass,
-                              std::vector<double>& partial) {
-    return 0.125 * dt * dt * ordered_sum(a.size(), partial, [&](std::size_t first, std::size_t last) {
-               double sum = 0;
-               for (std::size_t i = first; i < last; ++i) sum += a[i] * a[i] / inverse_mass[i];
-               return sum;
-           });
-}
-
 }  // namespace gneiss

@@ -38,6 +38,8 @@ public:
     explicit Mri(const Options& options);
 
     std::string name() const override { return "mri"; }
+    /// Between the ends of long steps its polynomial sees nothing of the short ones.
+    bool interpolates() const override { return false; }
 
 private:
     void create(double t) override;

@@ -77,7 +77,7 @@ void PrescribedMotion::step_from(const SemiDiscrete& system, const State& accept
 void PrescribedMotion::hold(const SemiDiscrete& system, State& state, StartReason why) {
     step_from(system, state);
     const auto constraints = system.constraints();
-    if (constraints.empty()) return;
+    if (constraints.empty() || why == StartReason::recover) return;
     evaluate(system, state.t);
     bool strained = false;
     for (std::size_t k = 0; k < constraints.size(); ++k) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "integrators/mass_and_damping.hpp"
+#include "integrators/prescribed_motion.hpp"
 
 namespace gneiss {
 
@@ -119,51 +121,61 @@ StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double
 
 void SundialsOde::finish_step(const SemiDiscrete& system, const State& state) {
     form_.unpack(system, next_.t, values_of(y_.get()), next_);
-    if (next_.history.empty())
-        system.force(state, FirstOrderForm::trial_of(next_, next_.last_event), f_);
-    else
-        system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, z_, next_.history);
-    ++counts_.rates;
     reactions_before_.swap(reactions_);
-    form_.motion().reactions(system, next_.v, f_, reactions_);
-    add_path_energies(system, state);
+    evaluate(system, state, next_, reactions_);
+    add_path_energies(system, state, reactions_before_, next_, reactions_);
+}
+
+void SundialsOde::evaluate(const SemiDiscrete& system, const State& from, State& to, std::vector<double>& reactions) {
+    if (to.history.empty())
+        system.force(from, FirstOrderForm::trial_of(to, to.last_event), f_);
+    else
+        system.force_and_update(from, {to.t, to.last_event, to.u, to.v, {}}, f_, z_, to.history);
+    ++counts_.rates;
+    form_.motion().reactions(system, to.v, f_, reactions);
+}
+
+void SundialsOde::state_within(const SemiDiscrete& system, double t, State& at, std::vector<double>& reactions) {
+    const State& from = next_;  // where the last step began
+    const State* const accepted = std::exchange(accepted_, &from);
+    const Counts counts = counts_;  // what output evaluates is no work of the scheme
+    at = from;
+    at.t = t;
+    check(dense(t, middle_y_.get()), "dense output");
+    form_.unpack(system, t, values_of(middle_y_.get()), at);
+    reactions.resize(reactions_.size());
+    evaluate(system, from, at, reactions);
+    add_path_energies(system, from, reactions_before_, at, reactions);
+    counts_ = counts;
+    accepted_ = accepted;
 }
 
 /// The trapezoidal rule over the step and over its halves, extrapolated: order 4, so that the ledger does not hide what
 /// a scheme of high order conserves.
-void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& state) {
-    const auto constraints = system.constraints();
-    const auto work = [&](std::span<const double> before, std::span<const double> after, const State& from,
-                          const State& to) {
-        double sum = 0;
-        for (std::size_t k = 0; k < constraints.size(); ++k) {
-            const std::size_t dof = constraints[k].dof;
-            sum += 0.5 * (before[k] + after[k]) * (to.u[dof] - from.u[dof]);
-        }
-        return sum;
-    };
-    system.add_path_energies(state, next_);
-    next_.path.support_work += work(reactions_before_, reactions_, state, next_);
-    PathEnergies whole = next_.path;
+void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& from, std::span<const double> before,
+                                    State& to, std::span<const double> after) {
+    system.add_path_energies(from, to);
+    add_support_work(system, before, after, from, to);
+    PathEnergies whole = to.path;
 
-    middle_.t = 0.5 * (state.t + next_.t);
-    middle_.last_event = next_.last_event;
+    middle_.t = 0.5 * (from.t + to.t);
+    middle_.last_event = to.last_event;
     check(dense(middle_.t, middle_y_.get()), "dense output");
     form_.unpack(system, middle_.t, values_of(middle_y_.get()), middle_);
-    middle_.history = state.history;
-    system.add_path_energies(state, middle_);
-    if (!constraints.empty()) {
-        system.force(state, FirstOrderForm::trial_of(middle_, middle_.last_event), f_);
+    middle_.history = from.history;
+    system.add_path_energies(from, middle_);
+    if (!system.constraints().empty()) {
+        system.force(from, FirstOrderForm::trial_of(middle_, middle_.last_event), f_);
         ++counts_.rates;
         form_.motion().reactions(system, middle_.v, f_, reactions_middle_);
-        middle_.path.support_work += work(reactions_before_, reactions_middle_, state, middle_);
+        add_support_work(system, before, reactions_middle_, from, middle_);
     }
-    system.add_path_energies(middle_, next_);
-    next_.path.support_work += work(reactions_middle_, reactions_, middle_, next_);
-    const double power = next_.path.viscous_power;
-    const auto halves = next_.path.members(), once = whole.members();
+    system.add_path_energies(middle_, to);
+    add_support_work(system, reactions_middle_, after, middle_, to);
+    const double power = to.path.viscous_power;
+    const auto halves = to.path.members(), once = whole.members();
     for (std::size_t k = 0; k < halves.size(); ++k) *halves[k] += (*halves[k] - *once[k]) / 3;
-    next_.path.viscous_power = power;
+    to.path.viscous_power = power;
 }
 
 double SundialsOde::kinetic_energy(const SemiDiscrete& system, const State& state) const {

@@ -41,6 +41,8 @@ public:
 
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
+    bool interpolates() const override { return true; }
+    void state_within(const SemiDiscrete& system, double t, State& at, std::vector<double>& reactions) final;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const final;
     std::span<const double> reactions() const final { return reactions_; }
     WorkCounts work() const final {
@@ -106,7 +108,10 @@ private:
     void allocate(const SemiDiscrete& system);
     void begin(const SemiDiscrete& system, const State& state);
     void finish_step(const SemiDiscrete& system, const State& state);
-    void add_path_energies(const SemiDiscrete& system, const State& state);
+    /// f_ at a state within a step, its history and the forces of its supports.
+    void evaluate(const SemiDiscrete& system, const State& from, State& to, std::vector<double>& reactions);
+    void add_path_energies(const SemiDiscrete& system, const State& from, std::span<const double> before, State& to,
+                           std::span<const double> after);
 
     Options options_;
     bool needs_newton_;

@@ -251,10 +251,6 @@ Case build_case(CaseOptions options) {
         need_supports(*built.mesh, parts);
     }
 
-    for (const double time : options.output.field_times)
-        if (time > options.run.t_end)
-            built.warnings.push_back(fmt::format(
-                "output.field_times: {:.9g} s is after run.t_end, {:.9g} s: no frame then", time, options.run.t_end));
     if (!cracks && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
         built.warnings.push_back("material.strength: has no effect without fracture.method");
     const bool searches = options.run.event_tolerance > 0;

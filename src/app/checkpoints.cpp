@@ -38,6 +38,9 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& deck_
     checkpoint.set("layout", built.layout);
     checkpoint.set("step", static_cast<std::int64_t>(progress.step));
     checkpoint.set("initial_energy", progress.initial_energy);
+    const BalanceRecord& balance = progress.balance;
+    checkpoint.set("balance", Vector{balance.largest_entry, balance.most_gained, balance.most_lost,
+                                     balance.doubtful_since, balance.gaining_since});
     if (built.cracking != nullptr) checkpoint.set("cracks", built.cracking->save());
     if (built.touches != nullptr) checkpoint.set("touches", built.touches->save());
     checkpoint.set("state.t", state.t);
@@ -70,6 +73,8 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
     const Layout layout = built.system->layout();
     progress.step = static_cast<std::size_t>(checkpoint.get<std::int64_t>("step"));
     progress.initial_energy = checkpoint.get<double>("initial_energy");
+    const Vector& balance = checkpoint.get<Vector>("balance", 5);
+    progress.balance = {balance[0], balance[1], balance[2], balance[3], balance[4]};
     state.t = checkpoint.get<double>("state.t");
     state.last_event = checkpoint.get<double>("state.last_event");
     state.u = checkpoint.get<Vector>("state.u", layout.n_dof);

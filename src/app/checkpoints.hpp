@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/balance_watch.hpp"
 #include "app/build_case.hpp"
 
 namespace gneiss {
@@ -11,6 +12,7 @@ namespace gneiss {
 struct RunProgress {
     std::size_t step = 0;
     double initial_energy = 0;  ///< J
+    BalanceRecord balance = {};
 };
 
 /// The same mesh in the same numbering, cut into the same blocks of the same packs: what z and history are ordered by.

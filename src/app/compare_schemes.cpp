@@ -289,6 +289,7 @@ void Comparison::write(const std::vector<ComparedRun>& runs) const {
                                    {"stepping_time_s", run.wall_time},
                                    {"peak_memory_bytes", run.cost.peak_memory}};
         if (!run.message.empty()) row["message"] = run.message;
+        if (!run.warning.empty()) row["warning"] = run.warning;
         if (run.errors) {
             row["error_displacement"] = run.errors->displacement;
             row["error_velocity"] = run.errors->velocity;
@@ -325,6 +326,9 @@ int Comparison::carry_out_all() {
                                                        run.errors->displacement, run.errors->velocity, run.energy_error,
                                                        run.steps, run.force_evaluations, run.cost.cpu_time)
                                          : run.status + ": " + run.message);
+        for (const ComparedRun& run : runs)
+            if (run.done() && !run.warning.empty())
+                fmt::print(stderr, "gneiss: warning: {}: {}\n", run.title(), run.warning);
         fmt::print(stderr, "results: {}\n", out_.string());
     }
     const bool all_done = std::ranges::all_of(runs, &ComparedRun::done);

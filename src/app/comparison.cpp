@@ -77,6 +77,7 @@ ComparedRun read_run(const fs::path& folder) {
     const auto summary = nlohmann::json::parse(read_file(summary_file));
     run.status = summary.at("status").get<std::string>();
     run.message = summary.value("message", "");
+    if (summary.contains("warnings")) run.warning = summary.at("warnings").at(0).get<std::string>();
     const auto& work = summary.at("work");
     run.steps = work.at("steps");
     run.rejected = work.at("rejected");
@@ -90,7 +91,8 @@ ComparedRun read_run(const fs::path& folder) {
     run.history = {history.column("t"), history.column("dt"), history.column("balance_error")};
     double largest = 0, left_over = 0;
     for (std::size_t k = 0; k < history.names.size(); ++k) {
-        const bool is_entry = history.units[k] == "J" && history.names[k] != "left_over";
+        const bool is_entry =
+            history.units[k] == "J" && history.names[k] != "left_over" && history.names[k] != "scheme";
         for (const double value : history.columns[k])
             if (is_entry) largest = larger(largest, std::abs(value));
     }
@@ -170,7 +172,7 @@ std::vector<std::string> comparison_row(const ComparedRun& run, bool rounded) {
             number(run.wall_time),
             number(1e-6 * run.cost.peak_memory),
             run.status,
-            run.message};
+            run.message.empty() ? run.warning : run.message};
 }
 
 }  // namespace gneiss

@@ -42,6 +42,7 @@ struct ComparedRun {
     std::filesystem::path folder;
     std::string status;   ///< of summary.json; "refused" if there was nothing to begin with
     std::string message;  ///< why it failed
+    std::string warning;  ///< of its energy balance; empty: none
     RunCost cost;
     std::optional<StateErrors> errors;  ///< none if it did not come to its end
     double energy_error = 0;            ///< largest energy left over, over the largest entry that the ledger ever had

@@ -60,6 +60,11 @@ std::string comparison_report(const std::string& title, const std::string& refer
     std::vector<std::vector<std::string>> rows;
     for (const ComparedRun& run : runs) rows.push_back(comparison_row(run, true));
     page.table(comparison_header(), rows);
+    if (std::ranges::any_of(runs, [](const ComparedRun& run) { return !run.warning.empty(); })) {
+        page.heading("Not to be trusted");
+        for (const ComparedRun& run : runs)
+            if (!run.warning.empty()) page.paragraph(fmt::format("{}: {}.", run.title(), run.warning));
+    }
 
     page.heading("Work and precision");
     const Number of_time = [](const ComparedRun& run) { return run.cost.cpu_time; };
@@ -78,7 +83,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
     page.heading("Histories");
     page.figure(svg_chart("Energy balance error", {"t, s"}, {"balance error", true},
                           histories(runs, &RunHistory::balance_error)),
-                "Energy left over by the ledger, over its largest entry.");
+                "Energy left over in the balance, over its largest entry so far.");
     page.figure(svg_chart("Step size", {"t, s"}, {"step, s", true}, histories(runs, &RunHistory::dt)),
                 "Steps as they were accepted.");
     return page.text();

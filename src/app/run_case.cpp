@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <chrono>
+#include <cmath>
 
+#include "app/balance_watch.hpp"
 #include "app/build_case.hpp"
 #include "app/checkpoints.hpp"
 #include "app/crack_frames.hpp"
@@ -14,6 +16,7 @@
 #include "app/tables.hpp"
 #include "app/threads.hpp"
 #include "base/errors.hpp"
+#include "integrators/mass_and_damping.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/atomic_file.hpp"
 #include "io/output/fingerprint.hpp"
@@ -50,11 +53,14 @@ public:
 private:
     void load_restart();
     void open_results();
-    EnergyLedger ledger() const;
+    EnergyLedger ledger(const State& state) const;
+    /// @param step  number of the step that the state belongs to
+    void write_rows(const State& state, std::size_t step, double dt, std::span<const double> reactions);
+    void judge_balance(double t, const EnergyLedger& energies);
     void begin();
+    void rows_within(const StepReport& step);
     bool after_step(const StepReport& step);
     bool within_step(const StepProgress& progress);
-    void write_rows(double dt);
     template <class Body>
     void for_each_table(Body body) {
         for (auto* table : {&history_file_, &probes_file_, &reactions_file_, &steps_file_})
@@ -67,6 +73,7 @@ private:
     void write_checkpoint();
     void write_summary_file(RunStatus status, const std::string& message = "");
     int end(RunStatus status, const std::string& message, int code);
+    int end_unbalanced();
     int end_failed(const std::exception& error);
     int end_out_of_memory();
     ProgressState progress_state() const;
@@ -85,10 +92,19 @@ private:
     std::size_t first_step_ = 0;  ///< of this part of the run
     std::size_t n_rejected_ = 0, n_force_ = 0;
     double last_dt_ = 0, balance_error_ = 0;
+    double t_looked_at_ = 0;  ///< where the last step ended, s
+    State within_;            ///< of rows within a step
+    std::vector<double> reactions_within_;
+    bool integrator_stands_ = true;     ///< its memory belongs to state_
+    bool unbalanced_ = false;           ///< more energy has come from nothing than run.most_energy_gained lets pass
+    std::optional<double> last_sound_;  ///< time of the last checkpoint with a sound balance, s
+    bool last_sound_is_last_ = false;   ///< it is checkpoint.h5, not last_sound.h5
+    std::vector<std::string> warnings_;
     bool resumed_ = false, begun_ = false;
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
     std::optional<Schedule> schedule_;
+    std::optional<BalanceWatch> balance_watch_;
     std::optional<CsvSeries> history_file_, probes_file_, reactions_file_, steps_file_;
     std::optional<FieldFrames> frames_;
     std::optional<CrackFrames> cracks_;
@@ -103,7 +119,8 @@ Run::Run(const RunArguments& arguments) : arguments_(arguments) {
     fingerprint_ = fingerprint_text(deck_text_);
     case_ = build_case(std::move(options));
     check_linear_solver(case_.options.integrator, *case_.system);
-    schedule_.emplace(case_.options);
+    schedule_.emplace(case_.options, case_.integrator->interpolates());
+    balance_watch_.emplace(case_.options, case_.integrator->is_static());
     state_ = case_.system->initial_state();
     if (arguments.restart) load_restart();
     open_results();
@@ -131,8 +148,8 @@ void Run::open_results() {
     make_folder(out_);
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)
-        for (const char* name :
-             {"checkpoint.h5", "probes.csv", "reactions.csv", "load_steps.csv", "states.h5", "summary.json"})
+        for (const char* name : {"checkpoint.h5", "last_sound.h5", "probes.csv", "reactions.csv", "load_steps.csv",
+                                 "states.h5", "summary.json"})
             fs::remove(out_ / name);
     log_ = open_run_log({out_ / "run.log", resumed_, arguments_.quiet, false});
     log_->info("gneiss {}: {}, {}", version_string(), fs::absolute(arguments_.deck).string(), threads_text());
@@ -159,38 +176,63 @@ void Run::open_results() {
     if (case_.options.output.states > 0) states_.emplace(out_ / "states.h5", *case_.mesh, restart_time);
 }
 
-EnergyLedger Run::ledger() const {
+EnergyLedger Run::ledger(const State& state) const {
     EnergyLedger ledger;
-    ledger.kinetic = case_.integrator->kinetic_energy(*case_.system, state_);
-    ledger.stored = case_.system->stored_energies(state_);
-    ledger.path = state_.path;
+    if (!case_.integrator->is_static()) {
+        std::vector<double> partial;
+        ledger.kinetic = synchronised_kinetic_energy(*case_.system, state.v, partial);
+        if (integrator_stands_) ledger.scheme = case_.integrator->kinetic_energy(*case_.system, state) - ledger.kinetic;
+    }
+    ledger.stored = case_.system->stored_energies(state);
+    ledger.path = state.path;
     ledger.initial = progress_.initial_energy;
+    ledger.largest_before = progress_.balance.largest_entry;
     return ledger;
 }
 
 void Run::begin() {
     begun_ = true;
+    t_looked_at_ = state_.t;
     if (!resumed_) {
-        const EnergyLedger at_start = ledger();
+        const EnergyLedger at_start = ledger(state_);
         progress_.initial_energy = at_start.kinetic + at_start.stored.sum();
-        write_rows(0);
+        write_rows(state_, progress_.step, 0, case_.integrator->reactions());
         write_frame();
     }
     log_->info("start: t = {:.9g}, t_end = {:.9g}", state_.t, case_.options.run.t_end);
     write_summary_file(RunStatus::running);
 }
 
-void Run::write_rows(double dt) {
-    const EnergyLedger energies = ledger();
-    balance_error_ = energies.balance_error();
-    std::vector<double> row = history_row(state_.t, progress_.step, dt, energies);
-    if (case_.cracking != nullptr) add_crack_columns(*case_.cracking, state_, row);
-    add_model_columns(*case_.system, state_, row);
+void Run::write_rows(const State& state, std::size_t step, double dt, std::span<const double> reactions) {
+    const EnergyLedger energies = ledger(state);
+    judge_balance(state.t, energies);
+    std::vector<double> row = history_row(state.t, step, dt, energies);
+    if (case_.cracking != nullptr) add_crack_columns(*case_.cracking, state, row);
+    add_model_columns(*case_.system, state, row);
     history_file_->row(row);
-    if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state_));
+    if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state));
     if (reactions_file_ && case_.reactions.n_constraints() != case_.system->constraints().size())
         case_.reactions = ReactionTable(*case_.mesh, case_.options.boundaries, case_.system->constraints());
-    if (reactions_file_) reactions_file_->row(case_.reactions.row(state_.t, case_.integrator->reactions()));
+    if (reactions_file_) reactions_file_->row(case_.reactions.row(state.t, reactions));
+}
+
+void Run::judge_balance(double t, const EnergyLedger& energies) {
+    BalanceRecord& record = progress_.balance;
+    balance_watch_->look(t, energies, record);
+    balance_error_ = energies.balance_error();
+    if (warnings_.empty() && balance_watch_->to_be_warned_of(t, record)) {
+        warnings_.push_back(balance_watch_->text(t, record));
+        log_->warn("{}", warnings_.back());
+    }
+    unbalanced_ = unbalanced_ || balance_watch_->to_be_ended(t, record);
+}
+
+void Run::rows_within(const StepReport& step) {
+    for (const double t : schedule_->rows_between(t_looked_at_, step.t)) {
+        if (unbalanced_) return;
+        case_.integrator->state_within(*case_.system, t, within_, reactions_within_);
+        write_rows(within_, progress_.step + step.n_steps, step.dt, reactions_within_);
+    }
 }
 
 void Run::write_checkpoint() {
@@ -198,7 +240,12 @@ void Run::write_checkpoint() {
     for_each_table([](CsvSeries& table) { table.flush(); });
     if (cracks_) cracks_->flush();
     if (states_) states_->save();
-    save_checkpoint(out_ / "checkpoint.h5", fingerprint_, case_, state_, progress_);
+    const fs::path file = out_ / "checkpoint.h5";
+    const bool sound = !std::isfinite(progress_.balance.doubtful_since);
+    if (!sound && last_sound_is_last_) fs::rename(file, out_ / "last_sound.h5");
+    save_checkpoint(file, fingerprint_, case_, state_, progress_);
+    last_sound_is_last_ = sound;
+    if (sound) last_sound_ = state_.t;
 }
 
 bool Run::after_step(const StepReport& step) {
@@ -207,9 +254,12 @@ bool Run::after_step(const StepReport& step) {
     n_rejected_ += step.n_rejected;
     n_force_ += step.n_force;
     last_dt_ = step.dt;
+    t_looked_at_ = step.t;
     if (!step.warning.empty()) log_->warn("{}", step.warning);
     if (steps_file_) steps_file_->row(step_row(step), {step.rejected});
-    if (schedule_->row_due(step)) write_rows(step.dt);
+    if (schedule_->row_due(step) && !unbalanced_)
+        write_rows(state_, progress_.step, step.dt, case_.integrator->reactions());
+    if (unbalanced_) return false;
     if (schedule_->frame_due(step)) write_frame();
     if (states_ && schedule_->state_due(step)) states_->add(*case_.system, state_);
     if (schedule_->checkpoint_due(step)) {
@@ -239,9 +289,10 @@ ProgressState Run::progress_state() const {
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
-    RunSummary summary = summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
-                                   {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, setup_time_,
-                                    seconds_since(started_), ledger()});
+    RunSummary summary =
+        summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
+                  {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, setup_time_,
+                   seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance), warnings_});
     summary.status = status;
     summary.message = message;
     summary.deck_fingerprint = fingerprint_;
@@ -251,8 +302,13 @@ void Run::write_summary_file(RunStatus status, const std::string& message) {
 int Run::end(RunStatus status, const std::string& message, int code) {
     for_each_table([](CsvSeries& table) { table.close(); });
     if (begun_) write_checkpoint();
+    if (BalanceWatch::largest_error(progress_.balance) >= BalanceWatch::doubtful) {
+        const std::string warning = balance_watch_->text(state_.t, progress_.balance);
+        if (warnings_.empty()) log_->warn("{}", warning);
+        warnings_ = {warning};
+    }
     write_summary_file(status, message);
-    balance_error_ = ledger().balance_error();
+    balance_error_ = ledger(state_).balance_error();
     const char* word = status == RunStatus::done ? "done" : status == RunStatus::failed ? "failed" : "stopped";
     bar_->finish(word, progress_state());
     if (!arguments_.quiet) fmt::print(stderr, "results: {}\n", out_.string());
@@ -260,6 +316,20 @@ int Run::end(RunStatus status, const std::string& message, int code) {
                progress_.step, state_.t, balance_error_, seconds_since(started_));
     if (status == RunStatus::interrupted) log_->warn("{}", message);
     return code;
+}
+
+int Run::end_unbalanced() {
+    const double t = state_.t;
+    std::string message = balance_watch_->text(t, progress_.balance);
+    message += fmt::format("; `run.most_energy_gained` = {} ends the run; ", case_.options.run.most_energy_gained);
+    const std::string now = (out_ / "checkpoint.h5").string(), sound = (out_ / "last_sound.h5").string();
+    message += last_sound_ ? fmt::format("the last state with a sound balance, t = {:.9g} s, is in {}, this one in {}",
+                                         *last_sound_, sound, now)
+                           : fmt::format("no sound state was saved (`run.checkpoint`), this one is in {}", now);
+    log_->error("{}", message);
+    warnings_ = {balance_watch_->text(t, progress_.balance)};
+    write_frame();
+    return end(RunStatus::failed, message, exit_code::failed);
 }
 
 int Run::end_failed(const std::exception& error) {
@@ -272,11 +342,13 @@ int Run::end_failed(const std::exception& error) {
         // The failed step has left the integrator between two states: let it start from the last good one, so that the
         // energies and the checkpoint are those of this state.
         try {
-            case_.integrator->start(*case_.system, state_, StartReason::resize);  // nothing of its memory holds
+            case_.integrator->start(*case_.system, state_, StartReason::recover);
         } catch (const std::exception& again) {
             log_->error("{}", again.what());
+            integrator_stands_ = false;
         }
-        if (history_file_->last_time() != state_.t) write_rows(last_dt_);
+        if (history_file_->last_time() != state_.t)
+            write_rows(state_, progress_.step, last_dt_, case_.integrator->reactions());
     }
     write_frame();
     return end(RunStatus::failed, message, exit_code::failed);
@@ -302,11 +374,13 @@ int Run::march() {
     march.next_stop = [this](double t) { return schedule_->next_stop(t); };
     march.next_look = [this](double t) { return schedule_->next_look(t); };
     march.after_start = [this] { begin(); };
+    if (case_.integrator->interpolates()) march.before_events = [this](const StepReport& step) { rows_within(step); };
     march.after_step = [this](const StepReport& step) { return after_step(step); };
     march.within_step = [this](const StepProgress& progress) { return within_step(progress); };
     try {
-        if (march.run(*case_.system, *case_.integrator, state_, resumed_) == MarchOutcome::finished)
-            return end(RunStatus::done, "", exit_code::done);
+        const MarchOutcome outcome = march.run(*case_.system, *case_.integrator, state_, resumed_);
+        if (unbalanced_) return end_unbalanced();
+        if (outcome == MarchOutcome::finished) return end(RunStatus::done, "", exit_code::done);
         return end(RunStatus::interrupted,
                    fmt::format("stopped by a signal; go on with --restart {}", (out_ / "checkpoint.h5").string()),
                    stop_request_.exit_code());

@@ -55,6 +55,8 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
         if (columns[k].unit == "J") summary.groups["energies_J"][columns[k].name] = row[k];
     summary.groups["energies_J"]["initial"] = now.energies.initial;
     summary.groups["balance_error"] = now.energies.balance_error();
+    summary.groups["largest_balance_error"] = now.largest_balance_error;
+    if (!now.warnings.empty()) summary.groups["warnings"] = now.warnings;
     return summary;
 }
 

@@ -18,6 +18,8 @@ struct RunNumbers {
     std::size_t n_rejected = 0, n_force = 0;  ///< trials thrown away, force evaluations, of this part
     double setup_time = 0, wall_time = 0;     ///< s
     EnergyLedger energies;
+    double largest_balance_error = 0;
+    std::vector<std::string> warnings;  ///< of the run, not of the deck
 };
 
 /// @param deck  path of the deck; @param set  overrides laid over it

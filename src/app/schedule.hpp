@@ -8,13 +8,40 @@
 
 namespace gneiss {
 
-/// Frames, checkpoints and whole states are taken at their times exactly, so that steps have to end there; a row of the
-/// tables is taken at the first step that reaches its time, so that tables do not shorten steps. Rows and a frame are
-/// also due at the end. Stateless: what is due follows from where a step began and ended, hence after a restart as
-/// without one.
+/// Multiples of an interval, each the double nearest to its decimal: five times 3e-4 is 0.0015, which the product of
+/// doubles is not.
+class Multiples {
+public:
+    /// @param interval  s; 0: there are none
+    explicit Multiples(double interval);
+
+    bool any() const { return interval_ > 0; }
+    double interval() const { return interval_; }
+    double time(double number) const { return number * numerator_ / denominator_; }
+    /// Number of the last one that t has come to, but for round-off.
+    double number(double t) const;
+    /// The first one after t, s; infinite if there are none.
+    double next(double t) const;
+    /// Whether t is one of them, but for round-off.
+    bool contains(double t) const;
+    /// Whether a step ends at one of them, and did not begin there.
+    bool arrived(const StepReport& step) const;
+    /// Whether a step has come to one of them.
+    bool passed(const StepReport& step) const;
+
+private:
+    double interval_, numerator_, denominator_;
+};
+
+/// Frames, checkpoints and whole states are taken at their times exactly, so that steps have to end there. So are rows
+/// of the tables whose interval is given, unless the integrator interpolates: then they are taken within steps. Rows
+/// without an interval, or wanted so, are taken at the first step that reaches their time, so that no step is
+/// shortened. Rows and a frame are also due at the end. Stateless: what is due follows from where a step began and
+/// ended, hence after a restart as without one.
 class Schedule {
 public:
-    explicit Schedule(const CaseOptions& options);
+    /// @param interpolates  whether the integrator does
+    explicit Schedule(const CaseOptions& options, bool interpolates = false);
 
     /// Where the step that begins at t has to end at the latest, s; infinite if nothing is planned. See reached().
     double next_stop(double t) const;
@@ -23,6 +50,8 @@ public:
     double next_look(double t) const;
 
     bool row_due(const StepReport& step) const;
+    /// Times of rows between two instants, s, that are to be interpolated.
+    std::vector<double> rows_between(double from, double to) const;
     bool frame_due(const StepReport& step) const;
     bool checkpoint_due(const StepReport& step) const;
     bool state_due(const StepReport& step) const;
@@ -34,8 +63,10 @@ public:
 private:
     bool is_last(const StepReport& step) const { return !(step.t < t_end_); }
 
-    double t_end_, fields_, history_, checkpoint_, states_;  ///< s; intervals 0 where there is none
-    std::vector<double> field_times_;                        ///< s
+    bool rows_at_times_, interpolates_;
+    double t_end_;  ///< s
+    Multiples fields_, history_, checkpoint_, states_;
+    std::vector<double> field_times_;  ///< s
 };
 
 }  // namespace gneiss

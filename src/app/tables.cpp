@@ -17,7 +17,7 @@ std::vector<CsvColumn> history_columns(bool cracks) {
          {"kinetic", "stored_material", "stress_power", "stored_contact", "stored_joints", "stored_models",
           "external_work", "support_work", "dissipated_damping", "dissipated_viscous", "dissipated_absorbing",
           "dissipated_friction", "dissipated_fracture", "dissipated_contact", "leaked", "dissipated_dampers",
-          "splitting", "left_over"})
+          "splitting", "scheme", "left_over"})
         columns.push_back({energy, "J"});
     columns.push_back({"balance_error"});
     if (cracks) columns.insert(columns.end(), {{"cracked_length", "m"}, {"fragments"}, {"nodes"}});
@@ -62,6 +62,7 @@ std::vector<double> history_row(double t, std::size_t step, double dt, const Ene
             path.leaked,
             path.dampers,
             path.splitting,
+            ledger.scheme,
             ledger.left_over(),
             ledger.balance_error()};
 }

@@ -237,7 +237,7 @@ struct IntegratorOptions {
     bool adaptive = false;  ///< to rtol
 
     // cvode, arkode, mri, ida: Cvode::Options, Arkode::Options, Mri::Options, Ida::Options
-    bool adams = false, functional = false, stability_detection = true;
+    bool adams = false, functional = false, stability_detection = false;
     std::string table = "dormand_prince_7_4_5", slow_table = "mri_gark_erk33a";
     int max_order = 0;
     double rtol = 1e-6, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
@@ -258,6 +258,8 @@ struct RunOptions {
     double checkpoint = 0;       ///< interval of simulated time between checkpoints, s; 0: only at the end
     double mass_damping = 0;     ///< C = c M, 1/s, >= 0
     double event_tolerance = 0;  ///< how well instants are known at which sides open or bodies meet, s; 0: to a step
+    /// Part of the largest energy of the run that may come from nothing before the run ends, [0, 1); 0: it never does.
+    double most_energy_gained = 0.5;
 };
 
 struct ProbeOptions {
@@ -269,7 +271,8 @@ struct ProbeOptions {
 struct OutputOptions {
     double fields = 0;                ///< interval, s; 0: the first and the last state only
     std::vector<double> field_times;  ///< further times, s, at which the fields are written
-    double history = 0;               ///< interval, s; 0: 1000 rows over the run
+    double history = 0;               ///< interval of rows, s; 0: a thousandth of the run, where steps end
+    bool rows_at_steps = false;       ///< at the first step that reaches a multiple of it, not at the multiple
     double states = 0;                ///< interval of whole states in full precision, s; 0: none
     std::vector<ProbeOptions> probes;
 };

@@ -17,7 +17,8 @@ namespace gneiss {
 enum class StartReason {
     fresh,         ///< a new run
     reinitialise,  ///< forces have jumped
-    resize         ///< the number of unknowns has changed
+    resize,        ///< the number of unknowns has changed
+    recover        ///< a step has failed: the state is the last accepted one, nothing has jumped
 };
 
 /// What one accepted step was, or several of them taken in one go.
@@ -101,7 +102,22 @@ public:
     /// Interrupted, and state and memory are those of the last accepted one. Empty: nobody watches.
     void watch(std::function<bool(const StepProgress&)> watcher) { watcher_ = std::move(watcher); }
 
-    /// Kinetic energy in the measure in which this integrator's balance is sharpest, J.
+    /// Whether states within the last step are known as exactly as its end.
+    virtual bool interpolates() const { return false; }
+    /// The state at a time within the last accepted step, its memory and the energies of its path included: of
+    /// integrators that interpolate, until the next call that changes anything.
+    /// @param t               from the beginning of the step to its end, s
+    /// @param[out] at         overwritten
+    /// @param[out] reactions  forces of supports there, N, overwritten, shape (constraints)
+    virtual void state_within(const SemiDiscrete& system, double t, State& at, std::vector<double>& reactions) {
+        (void)system;
+        (void)t;
+        (void)at;
+        (void)reactions;
+        throw std::logic_error(name() + " does not interpolate");
+    }
+
+    /// Kinetic energy in the measure in which this integrator's balance is sharpest, J; 1/2 v . M v where it starts.
     virtual double kinetic_energy(const SemiDiscrete& system, const State& state) const = 0;
     /// Forces of supports on the constrained degrees of freedom at the last accepted state, N, shape (constraints).
     virtual std::span<const double> reactions() const = 0;

@@ -160,6 +160,7 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
             const StepReport step = searches ? search.advance(state, stop)
                                     : unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
                                              : integrator.advance(system, state, stop);
+            if (before_events) before_events(step);
             switch (apply_due_events(system, state)) {
                 case EventOutcome::none:
                     break;

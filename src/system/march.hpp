@@ -38,6 +38,8 @@ struct March {
     double event_tolerance = 0;
     /// Called once before the first step, when the integrator has started.
     std::function<void()> after_start;
+    /// Called after every such step before its events are applied: while Integrator::state_within() is to be had.
+    std::function<void(const StepReport& step)> before_events = {};
     /// Called after every accepted step that is not passed unseen, once its events have been applied. Returns false to
     /// stop.
     std::function<bool(const StepReport& step)> after_step;

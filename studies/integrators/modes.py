@@ -40,7 +40,7 @@ def deck(mesh: str, nodes: Array | None = None) -> Deck:
         "material": [MATERIAL],
         "initial": [{"velocity": [f"{SPEED}*(sin(7*x + 3*y) + x*y)", f"{SPEED}*cos(5*x - 4*y + 1)"]}],
         "run": {"t_end": 1.0},
-        "output": {"history": 1.0},
+        "output": {"history": 1.0, "rows": "steps"},
     }
     if nodes is not None:
         found["output"]["probes"] = [{"name": f"n{i}", "at": [float(x), float(y)]} for i, (x, y) in enumerate(nodes)]

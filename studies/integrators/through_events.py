@@ -109,6 +109,6 @@ def deck(name: str, profile: str) -> Deck:
         if keys["type"] in ("ida", "mri") and name == "cantilever":
             keys |= AT_REST  # their own scales, the largest so far, are 0 at the start
         schemes.append({"name": scheme.name, "integrator": keys})
-    result["output"] = {"history": t_end / 200}
+    result["output"] = {"history": t_end / 200, "rows": "steps"}
     result["compare"] = {"samples": 4, "reference": TIGHT | {"dt": t_end / (4 * STEPS[name])}, "scheme": schemes}
     return result

@@ -43,6 +43,11 @@ inline constexpr std::array<Choice<MeshOptions::Layout>, 2> mesh_layouts{{
     {"structured", MeshOptions::Layout::structured, "rings and rays, with every symmetry of the square"},
 }};
 
+inline constexpr std::array<Choice<bool>, 2> row_places{{
+    {"times", false, "at the multiples of the interval: cvode, arkode, ida interpolate, steps of others end there"},
+    {"steps", true, "at the end of the first step that reaches each multiple: no step is changed"},
+}};
+
 inline constexpr std::array<Choice<bool>, 2> elements{{
     {"compt", true, "composite triangle of six nodes, free of volumetric locking"},
     {"cst", false, "constant strain triangles on the same nodes, four for each composite"},

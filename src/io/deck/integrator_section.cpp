@@ -74,7 +74,8 @@ const Section<IntegratorOptions>& integrator_section() {
                 {.only_for = cvode, .meaning = "how the nonlinear system of a step is solved"}),
          boolean("stability_detection", &I::stability_detection,
                  {.only_for = cvode,
-                  .meaning = "lowers the order of `bdf` where its orders 3 to 5 are unstable on undamped vibration"}),
+                  .meaning = "lowers the order of `bdf` where SUNDIALS finds its orders 3 to 5 unstable; on undamped "
+                             "vibration it finds little, and a smaller `rtol` helps more for fewer steps"}),
          choice("table", &I::table, runge_kutta_tables,
                 {.only_for = {{"type", {"arkode"}}},
                  .meaning = "coefficients, as SUNDIALS names them: stages, embedded order, order"}),

@@ -69,6 +69,17 @@ void check_solid(TableReader& table, SolidOptions& solid) {
     if (!table.failed("element") && !table.failed("volumetric")) table.findings().volumetric = solid.volumetric;
 }
 
+/// Reports frames that would come after the end of the run.
+void check_field_times(const TableReader& table, const CaseOptions& options) {
+    const auto& times = options.output.field_times;
+    for (std::size_t i = 0; options.run.t_end > 0 && i < times.size(); ++i) {
+        if (!(times[i] > options.run.t_end)) continue;
+        const toml::node& node = *table.table()["output"]["field_times"][i].node();
+        Value(table.findings(), node, fmt::format("output.field_times[{}]", i), table.where())
+            .refuse(fmt::format("<= {} s, where the run ends: `run.t_end`", options.run.t_end));
+    }
+}
+
 void check_output(TableReader& table, OutputOptions& output) {
     for (std::size_t i = 0; i < output.probes.size(); ++i) {
         const std::string& name = output.probes[i].name;
@@ -219,7 +230,12 @@ const Section<RunOptions>& run_section() {
                 {.unit = "s",
                  .range = at_least(0),
                  .meaning = "steps in which a side reaches its strength, or two bodies touch or part, are taken again, "
-                            "shorter, until the instant is known to this; 0: sides open at the end of the step"})}};
+                            "shorter, until the instant is known to this; 0: sides open at the end of the step"}),
+         number("most_energy_gained", &R::most_energy_gained,
+                {.range = {.low = 0, .high = 1, .low_open = false},
+                 .meaning = "part of the largest energy in the balance that may have come from nothing; with more the "
+                            "run ends as failed, for its scheme is unstable. 0: it goes on. From 0.01 on there is a "
+                            "warning, for lost energy too"})}};
     return section;
 }
 
@@ -249,8 +265,9 @@ const Section<OutputOptions>& output_section() {
          number("history", &O::history,
                 {.unit = "s",
                  .range = at_least(0),
-                 .meaning = "simulated time between rows of history.csv, probes.csv and reactions.csv; 0: 1000 rows "
-                            "over the run"}),
+                 .meaning = "simulated time between rows of history.csv, probes.csv and reactions.csv; 0: a thousandth "
+                            "of the run, with `rows = \"steps\"`"}),
+         choice("rows", &O::rows_at_steps, row_places, {.meaning = "where rows stand whose interval is given"}),
          number("states", &O::states,
                 {.unit = "s",
                  .range = at_least(0),
@@ -270,6 +287,7 @@ const Section<CaseOptions>& case_section() {
             table.problem("material", "given none, must be at least one [[material]]");
         }
         check_model_names(table, out.lumped);
+        if (!table.failed("run") && !table.failed("output")) check_field_times(table, out);
         if (!out.walls.empty() && out.contact.method == ContactOptions::Method::none && !table.failed("contact"))
             table.problem("wall", "has no effect without `contact.method`");
         for (std::size_t i = 0; i < out.walls.size(); ++i)

@@ -67,7 +67,7 @@ def wedge_deck() -> Deck:
         "initial": [{"on": "upper", "velocity": [0.0, 0.0]}],
         "integrator": {"type": "central_difference", "dt": STEP},
         "run": {"t_end": WEDGE_END},
-        "output": {"history": STEP},
+        "output": {"history": STEP, "rows": "steps"},
     }
 
 

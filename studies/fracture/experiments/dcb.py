@@ -72,7 +72,7 @@ def deck(element: str, cells: int, penalty: float, last: float, steps: int, dyna
         "integrator": {"type": "generalized_alpha", "rho_inf": 0.0, "dt": t_end / steps} if dynamic else
         {"type": "quasi_static", "step": t_end / steps, "longest": t_end / steps, "tolerance": 1e-7},
         "run": {"t_end": t_end},
-        "output": {"history": 1e-9 if not dynamic else t_end / steps, "fields": t_end / PROFILES},
+        "output": {"history": 1e-9 if not dynamic else t_end / steps, "rows": "steps", "fields": t_end / PROFILES},
     }
 
 

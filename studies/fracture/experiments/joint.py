@@ -63,7 +63,7 @@ def deck(case: str, steps: int) -> Deck:
         "boundary": [{"on": "lower", "type": "fixed"}, *moved],
         "integrator": {"type": "quasi_static", "step": 1 / steps, "longest": 1 / steps, "tolerance": 1e-5},
         "run": {"t_end": 1.0},
-        "output": {"history": 1e-9},
+        "output": {"history": 1e-9, "rows": "steps"},
     }
 
 

@@ -88,7 +88,7 @@ def standing_wave(program: str, element: str, folder: Path) -> dict[str, float]:
     what["run"] = {"t_end": float(t_end)}
     what["integrator"] = {"type": "verlet", "composition": "mclachlan_5", "safety": 0.3}
     points = np.linspace(0.0, length, 2 * RUN_CELLS + 1)[1:-1]
-    what["output"] = {"history": 1e-12, "probes": [{"name": f"p{i}", "at": [float(x), 1.0]} for i, x in enumerate(points)]}
+    what["output"] = {"history": 1e-12, "rows": "steps", "probes": [{"name": f"p{i}", "at": [float(x), 1.0]} for i, x in enumerate(points)]}
     write_deck(what, folder / "standing.toml")
     subprocess.run([program, "run", str(folder / "standing.toml"), "--out", str(folder / "standing"), "--threads", "1",
                     "--quiet"], check=True)

@@ -13,7 +13,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -49,12 +51,30 @@ protected:
     nlohmann::json summary(const std::filesystem::path& results) const {
         return nlohmann::json::parse(contents(results / "summary.json"), nullptr, false);
     }
+    /// Columns of a .csv by their headings.
+    std::map<std::string, std::vector<double>> table(const std::filesystem::path& file) const {
+        std::istringstream lines(contents(file));
+        std::string line, cell;
+        std::getline(lines, line);
+        std::vector<std::string> headings;
+        for (std::istringstream cells(line); std::getline(cells, cell, ',');) headings.push_back(cell);
+        std::map<std::string, std::vector<double>> columns;
+        while (std::getline(lines, line)) {
+            std::istringstream cells(line);
+            for (const std::string& heading : headings) {
+                std::getline(cells, cell, ',');
+                columns[heading].push_back(std::stod(cell));
+            }
+        }
+        return columns;
+    }
     std::size_t n_lines(const std::filesystem::path& name) const {
         const std::string text = contents(name);
         return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
     }
 
-    /// Calls `gneiss ARGUMENTS` in the folder.
+    /// Calls `gneiss ARGUMENTS` in the folder. The energy balance of a run that comes to its end has to close to a
+    /// hundredth, unless balance_may_be_out.
     /// @param meanwhile  called with the process's number while it runs
     Ended gneiss(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) const {
         const pid_t child = ::fork();
@@ -74,6 +94,15 @@ protected:
         ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
         ended.out = contents("stdout.txt");
         ended.err = contents("stderr.txt");
+        if (ended.code == 0 && arguments[0] == "run" && !balance_may_be_out) {
+            const auto out = std::ranges::find(arguments, "--out");
+            const auto results = out != arguments.end() ? std::filesystem::path(*(out + 1))
+                                                        : "results" / std::filesystem::path(arguments[1]).stem();
+            const nlohmann::json found = summary(results);
+            if (found.is_object()) {
+                EXPECT_LT(found["largest_balance_error"], 0.01) << results;
+            }
+        }
         return ended;
     }
 
@@ -83,6 +112,7 @@ protected:
     }
 
     std::filesystem::path folder;
+    bool balance_may_be_out = false;
 
 private:
     static bool redirect(const char* name, int descriptor) {

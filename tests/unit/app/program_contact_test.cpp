@@ -41,7 +41,7 @@ const std::string pressed_deck = R"toml(title = "one block dropped onto another"
 mesh = { file = "two.geo", parameters = { gap = 1e-5 } }
 solid = { plane = "strain" }
 run = { t_end = 2e-4, checkpoint = 1e-4 }
-output = { history = 1e-6, probes = [{ name = "p", at = [0.01, 0.03] }] }
+output = { history = 1e-9, rows = "steps", probes = [{ name = "p", at = [0.01, 0.03] }] }
 [[material]]
 density = 2500.0
 constants = { E = 1e9, nu = 0.2 }

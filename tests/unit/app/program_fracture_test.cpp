@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <map>
-#include <sstream>
 
 #include "unit/app/program.hpp"
 
@@ -19,7 +17,7 @@ const std::string cracking_deck = R"toml(title = "a block that is pulled apart"
 mesh = { generator = "rectangle", width = 0.04, height = 0.02, cells = [8, 4], pattern = "crossed" }
 solid = { plane = "strain" }
 run = { t_end = 1e-4, checkpoint = 5e-5 }
-output = { history = 1e-6, probes = [{ name = "p", at = [0.02, 0.01] }] }
+output = { history = 1e-9, rows = "steps", probes = [{ name = "p", at = [0.02, 0.01] }] }
 [[material]]
 density = 2500.0
 constants = { E = 30e9, nu = 0.2 }
@@ -50,23 +48,6 @@ protected:
         const Ended ended = gneiss(arguments);
         EXPECT_EQ(ended.code, 0) << ended.err;
         return summary(out)["energies_J"];
-    }
-    /// Columns of a .csv by their headings.
-    std::map<std::string, std::vector<double>> table(const std::string& file) const {
-        std::istringstream lines(contents(file));
-        std::string line, cell;
-        std::getline(lines, line);
-        std::vector<std::string> headings;
-        for (std::istringstream cells(line); std::getline(cells, cell, ',');) headings.push_back(cell);
-        std::map<std::string, std::vector<double>> columns;
-        while (std::getline(lines, line)) {
-            std::istringstream cells(line);
-            for (const std::string& heading : headings) {
-                std::getline(cells, cell, ',');
-                columns[heading].push_back(std::stod(cell));
-            }
-        }
-        return columns;
     }
 };
 

@@ -26,6 +26,7 @@ TEST(HistoryTable, Row_FitsTheColumns) {
     ledger.stored.material = 5;
     ledger.path.external_work = 10;
     ledger.initial = 1;
+    ledger.scheme = -2;
     const std::vector<CsvColumn> columns = history_columns();
     const std::vector<double> row = history_row(0.5, 7, 0.1, ledger);
     ASSERT_EQ(row.size(), columns.size());
@@ -41,8 +42,9 @@ TEST(HistoryTable, Row_FitsTheColumns) {
     EXPECT_EQ(value("kinetic"), 3);
     EXPECT_EQ(value("stored_material"), 5);
     EXPECT_EQ(value("external_work"), 10);
-    EXPECT_EQ(std::abs(value("left_over")), 3);  // 1 + 10 came in, 3 + 5 are there
-    EXPECT_DOUBLE_EQ(value("balance_error"), 0.3);
+    EXPECT_EQ(value("scheme"), -2);
+    EXPECT_EQ(value("left_over"), -5);  // 1 + 10 came in, 3 + 5 - 2 are there
+    EXPECT_DOUBLE_EQ(value("balance_error"), 0.5);
 }
 
 TEST(ProbeTable, Columns_RadialOnesOnlyWithACentre) {

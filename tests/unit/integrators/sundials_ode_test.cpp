@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
+
 #include "integrators/arkode.hpp"
 #include "integrators/cvode.hpp"
 #include "integrators/ida.hpp"
@@ -121,6 +123,63 @@ TEST(SundialsOde, GivenScales_LoosenTheTolerance) {
         return integrator.counts().steps;
     };
     EXPECT_GT(steps(0.1), steps(10) * 3 / 2);
+}
+
+TEST(SundialsOde, StateWithinAStep_IsAsExactAsItsEnd) {
+    test::OscillatorModel model = test::two_nodes();
+    model.load = test::smooth_load;
+    model.damping.mass_proportional = 0.4;
+    model.damping.blocks = {{0, 3.0, 1.2, 5.0}};
+    model.prescribed = {test::moving(1, Constraint::Kind::displacement, -0.2),
+                        test::moving(2, Constraint::Kind::velocity, 0.15)};
+    const test::Oscillator system(model);
+    std::vector<std::unique_ptr<Integrator>> integrators;
+    Cvode::Options cvode;
+    Ida::Options ida;
+    cvode.rtol = ida.rtol = 1e-8;
+    integrators.push_back(std::make_unique<Cvode>(cvode));
+    integrators.push_back(std::make_unique<Ida>(ida));
+    for (const char* table : {"dormand_prince_7_4_5", "fehlberg_13_7_8", "kvaerno_7_4_5"}) {
+        Arkode::Options arkode;
+        arkode.rtol = 1e-8;
+        arkode.table = table;
+        integrators.push_back(std::make_unique<Arkode>(arkode));
+    }
+    for (const auto& integrator : integrators) {
+        ASSERT_TRUE(integrator->interpolates());
+        State state = system.initial_state();
+        integrator->start(system, state, StartReason::fresh);
+        const auto energy = [&](const State& at) {
+            const PathEnergies& path = at.path;
+            return integrator->kinetic_energy(system, at) + system.stored_energies(at).sum() + path.damping +
+                   path.absorbing - path.external_work - path.support_work;
+        };
+        const double before = energy(state);
+        double start = 0;
+        std::size_t n_steps = 0;
+        for (double next = 0.7; state.t < next; ++n_steps) {
+            start = state.t;
+            integrator->advance(system, state, test::oscillator_end);
+        }
+        State at;
+        std::vector<double> reactions;
+        for (const double part : {0.2, 0.5, 0.9}) {
+            integrator->state_within(system, start + part * (state.t - start), at, reactions);
+            const State exact = runge_kutta(system, at.t, test::oscillator_reference_step);
+            // as Error_FollowsTheTolerance of the contract
+            EXPECT_LT(test::distance(at, exact), 10 * static_cast<double>(n_steps) * 1e-8) << integrator->name();
+            EXPECT_NEAR(energy(at), before, 1e-6 * std::abs(at.path.external_work)) << integrator->name();
+        }
+        // at the end it is the state itself
+        integrator->state_within(system, state.t, at, reactions);
+        EXPECT_LT(test::distance(at, state), 1e-13) << integrator->name();
+        EXPECT_NEAR(energy(at), energy(state), 1e-12) << integrator->name();
+        for (std::size_t k = 0; k < reactions.size(); ++k)
+            EXPECT_NEAR(reactions[k], integrator->reactions()[k], 1e-9) << integrator->name();
+        // and the march goes on from it
+        const double reached = state.t;
+        EXPECT_GT(integrator->advance(system, state, test::oscillator_end).t, reached) << integrator->name();
+    }
 }
 
 TEST(SundialsOde, NothingMoves_NothingHappens) {

@@ -73,7 +73,13 @@ TEST(DeckErrors, TypesAndRanges) {
         {{"mesh.origin=[0, nan]"}, {"key `mesh.origin[1]`: given nan, must be finite (m)"}},
         {{"mesh.origin=0"}, {"key `mesh.origin`: given 0 (an integer), must be an array of 2 numbers (m)"}},
         {{"title=''"}, {"key `title`: given \"\", must not be empty"}},
-        {{"output.field_times=[1, -1]"}, {"key `output.field_times[1]`: given -1, must be ≥ 0 s"}},
+        {{"output.field_times=[0.01, -1]"}, {"key `output.field_times[1]`: given -1, must be ≥ 0 s"}},
+        {{"output.field_times=[0.02, 0.03]"},
+         {"key `output.field_times[1]`: given 0.03, must be <= 0.02 s, where the run ends: `run.t_end`"}},
+        {{"output.history=-1e-3"}, {"key `output.history`: given -0.001, must be ≥ 0 s"}},
+        {{"output.rows=step"},
+         {"key `output.rows`: given \"step\", must be one of \"times\", \"steps\", did you mean `steps`?"}},
+        {{"run.most_energy_gained=1"}, {"key `run.most_energy_gained`: given 1, must be in [0, 1)"}},
     });
 }
 
@@ -133,7 +139,8 @@ TEST(DeckErrors, UnknownKeysAndWords) {
         {{"run.tend=1"}, {"key `run.tend`: unknown, did you mean `t_end`?"}},
         {{"run.safety=1"}, {"key `run.safety`: unknown, it belongs to [integrator]"}},
         {{"run.zzzzzzz=1"},
-         {"key `run.zzzzzzz`: unknown, allowed: `t_end`, `checkpoint`, `mass_damping`, `event_tolerance`"}},
+         {"key `run.zzzzzzz`: unknown, allowed: `t_end`, `checkpoint`, `mass_damping`, `event_tolerance`, "
+          "`most_energy_gained`"}},
         {{"solid.element=compound"}, {"key `solid.element`: given \"compound\", must be one of \"compt\", \"cst\""}},
         {{"solid.element=CTS"},
          {"key `solid.element`: given \"CTS\", must be one of \"compt\", \"cst\", did you mean `cst`?"}},

@@ -125,10 +125,12 @@ t_end = 0.02
 checkpoint = 0.01
 mass_damping = 3
 event_tolerance = 1e-9
+most_energy_gained = 0.1
 [output]
 fields = 2e-4
 field_times = [1e-3, 0.5e-3]
 history = 1e-5
+rows = "steps"
 states = 1e-3
 probes = [{ at = [5.0, 0.0], name = "p0", about = [0.0, 0.0] }]
 [compare]
@@ -244,7 +246,7 @@ stress_scale = 1e6
 method = "adams"
 iteration = "functional"
 max_order = 4
-stability_detection = false
+stability_detection = true
 [run]
 t_end = 1
 )toml",

@@ -38,6 +38,8 @@ TEST(EnergyLedger, EveryEntry_LeftOver_CountsItWithItsSign) {
     EXPECT_EQ(ledger.left_over(), 1 + 240 - 256 + 229376);
     ledger.path.viscous_power = 1e9;  // a rate, no energy
     EXPECT_EQ(ledger.left_over(), 1 + 240 - 256 + 229376);
+    ledger.scheme = -3;
+    EXPECT_EQ(ledger.left_over(), 1 + 240 - 256 + 229376 - 3);
 }
 
 TEST(EnergyLedger, BalanceError_IsRelativeToTheLargestEntry) {
@@ -48,8 +50,21 @@ TEST(EnergyLedger, BalanceError_IsRelativeToTheLargestEntry) {
     EXPECT_DOUBLE_EQ(ledger.balance_error(), 0.1);
     ledger.path.external_work = -10;  // work that the solid has done counts by its size
     EXPECT_DOUBLE_EQ(ledger.balance_error(), 1.9);
+    EXPECT_DOUBLE_EQ(ledger.relative_left_over(), 1.9);
     ledger.path.fracture = 100;
     EXPECT_DOUBLE_EQ(ledger.balance_error(), 1.19);
+    ledger.initial = 300;
+    EXPECT_DOUBLE_EQ(ledger.relative_left_over(), (119.0 - 300) / 300);
+}
+
+TEST(EnergyLedger, Unloaded_BalanceError_IsRelativeToWhatThereHasBeen) {
+    EnergyLedger ledger;
+    ledger.path.external_work = 1e-12;
+    ledger.stored.material = 2e-12;
+    EXPECT_DOUBLE_EQ(ledger.balance_error(), 0.5);
+    ledger.largest_before = 10;
+    EXPECT_DOUBLE_EQ(ledger.balance_error(), 1e-13);
+    EXPECT_EQ(ledger.largest_entry(), 10);
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ public:
 
     std::string name() const override { return "scripted"; }
     void start(const SemiDiscrete&, State& state, StartReason why) override {
-        const char* const reasons[] = {"fresh", "reinitialise", "resize"};
+        const char* const reasons[] = {"fresh", "reinitialise", "resize", "recover"};
         last_ = state.t;
         diary_.push_back(std::string("start ") + reasons[static_cast<int>(why)] + " at " + number(state.t));
     }
@@ -156,6 +156,16 @@ TEST_F(MarchOverTime, NextLook_BesideAnEventThatWatches_ItLooksWhereItIsStirredO
     run();
     EXPECT_THAT(diary, ElementsAre("look at 0.", "start fresh at 0.", "step to 1.", "step to 2.", "seen at 2.",
                                    "look at 2.", "start resize at 2.", "step to 2.5", "seen at 2.5", "look at 2.5"));
+}
+
+TEST_F(MarchOverTime, BeforeEvents_IsCalledBetweenAStepAndTheEventsAtItsEnd) {
+    add_event("jump", {1.5}, EventOutcome::reinitialise);
+    march.before_events = [this](const StepReport& step) { diary.push_back("before events at " + number(step.t)); };
+    march.t_end = 1.75;
+    run();
+    EXPECT_THAT(diary, ElementsAre("start fresh at 0.", "step to 1.", "before events at 1.", "step to 1.5",
+                                   "before events at 1.5", "jump at 1.5", "start reinitialise at 1.5", "step to 1.75",
+                                   "before events at 1.75"));
 }
 
 TEST_F(MarchOverTime, NothingSpecial_StepsToTheEnd) {
