@@ -15,6 +15,7 @@
 #include "io/deck/deck.hpp"
 #include "io/output/progress_line.hpp"
 #include "mesh/measure.hpp"
+#include "mesh/regions.hpp"
 #include "system/march.hpp"
 
 namespace gneiss {
@@ -130,7 +131,7 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("nodes", fmt::format("{}", size.n_nodes));
     line("sub-edges", fmt::format("{:.4g} to {:.4g} m", size.smallest_edge, size.largest_edge));
     line("area", fmt::format("{:.6g} m2", size.area));
-    line("regions", fmt::format("{}", fmt::join(mesh.region_names, ", ")));
+    line("regions", fmt::format("{}", fmt::join(names_of_regions(mesh), ", ")));
     line("boundaries", names_of(mesh.boundaries, decltype(mesh.boundaries){}));
     line("inner lines", names_of(mesh.inner_lines, decltype(mesh.inner_lines){}));
     std::set<std::string> lines;

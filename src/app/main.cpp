@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <memory>
 
 #include "app/check_case.hpp"
 #include "app/compare_schemes.hpp"
@@ -15,7 +19,9 @@
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
 #include "io/deck/deck.hpp"
+#include "io/output/progress_line.hpp"
 #include "io/output/version.hpp"
+#include "mesh/mesh_process.hpp"
 
 namespace {
 
@@ -75,6 +81,32 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return {words.rbegin(), words.rend()};
 }
 
+/// Gmsh works in a second process of this program; from the third second on its progress is shown.
+MeshProcess mesh_process(bool quiet) {
+    MeshProcess process{.program = "/proc/self/exe"};
+    if (quiet) return process;
+    struct Shown {
+        double next = 2;  // s
+        std::size_t width = 0;
+    };
+    const auto shown = std::make_shared<Shown>();
+    const bool on_terminal = isatty(STDERR_FILENO) == 1;
+    process.progress = [shown, on_terminal](const std::filesystem::path& file, double seconds, std::string_view said) {
+        if (seconds < shown->next) return;
+        shown->next = seconds + (on_terminal ? 0 : record_interval(seconds));
+        constexpr std::size_t widest = 100;
+        const std::string line =
+            fmt::format("mesh: {}, {}: {}", file.filename().string(), duration_text(seconds), said).substr(0, widest);
+        fmt::print(stderr, "{}{:<{}}{}", on_terminal ? "\r" : "", line, shown->width, on_terminal ? "" : "\n");
+        if (on_terminal) shown->width = std::max(shown->width, line.size());
+    };
+    process.ended = [shown] {
+        if (shown->width > 0) fmt::print(stderr, "\r{:<{}}\r", "", shown->width);
+        *shown = {};
+    };
+    return process;
+}
+
 /// @return exit code
 int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
     const RunArguments& run = arguments.run;
@@ -97,6 +129,8 @@ int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 1 && argv[1] == mesh_process_command) return serve_mesh({argv + 2, argv + argc});
+
     return_large_arrays();
     CLI::App app("gneiss: plane problems in anisotropic solids, under any time integrator", "gneiss");
     app.set_version_flag("--version", "gneiss " + version_string());
@@ -138,7 +172,11 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;
     }
     try {
+        use_mesh_process(mesh_process(arguments.run.quiet));
         return carry_out(app, arguments, argv);
+    } catch (const MeshInterrupted& error) {
+        constexpr int by_signal = 128;
+        return by_signal + error.signal;
     } catch (const InputError& error) {
         std::cerr << error.what() << '\n';
         const std::size_t n = error.problems().size();

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/regions.hpp"
 
 namespace gneiss {
 namespace {
@@ -50,6 +52,10 @@ std::vector<BoundaryEdge> edges_inside(const Mesh& mesh, const BoundaryPart& par
     return in_walking_order(inside);
 }
 
+bool is_taken(const Mesh& mesh, const std::string& name) {
+    return mesh.node_sets.contains(name) || !regions_named(mesh, name).empty();
+}
+
 void name_part(Mesh& mesh, const BoundaryPart& part) {
     if (!mesh.boundaries.contains(part.of)) {
         std::vector<std::string_view> names;
@@ -61,15 +67,55 @@ void name_part(Mesh& mesh, const BoundaryPart& part) {
         throw InputError("", fmt::format("of = \"{}\": the mesh has no boundary of this name; there are: {}{}", part.of,
                                          there, suggestion(part.of, names)));
     }
-    if (mesh.node_sets.contains(part.name) ||
-        std::ranges::find(mesh.region_names, part.name) != mesh.region_names.end())
-        throw InputError("", "the mesh has something of this name already");
+    if (is_taken(mesh, part.name)) throw InputError("", "the mesh has something of this name already");
     std::vector<BoundaryEdge> edges = edges_inside(mesh, part);
     mesh.node_sets[part.name] = nodes_of(edges);
     mesh.boundaries[part.name] = std::move(edges);
 }
 
 }  // namespace
+
+void name_sides_of_rectangle(Mesh& mesh, const std::vector<BoundaryEdge>& contour) {
+    Point2 low = mesh.nodes.front(), high = low;
+    for (const Point2& x : mesh.nodes)
+        for (const std::size_t k : {0, 1}) {
+            low[k] = std::min(low[k], x[k]);
+            high[k] = std::max(high[k], x[k]);
+        }
+    struct Side {
+        const char* name;
+        std::size_t across;  // component that all of its points share
+        double at, length;
+        std::vector<BoundaryEdge> edges = {};
+    };
+    std::array<Side, 4> sides{{{"bottom", 1, low[1], high[0] - low[0]},
+                               {"right", 0, high[0], high[1] - low[1]},
+                               {"top", 1, high[1], high[0] - low[0]},
+                               {"left", 0, low[0], high[1] - low[1]}}};
+    // A file keeps the digits of its writer, Gmsh's geometry is exact to 1e-8 of the model.
+    constexpr double tolerance = 1e-6;
+    for (const BoundaryEdge& edge : contour) {
+        const Point2 &a = mesh.nodes[static_cast<std::size_t>(edge.a)],
+                     &b = mesh.nodes[static_cast<std::size_t>(edge.b)];
+        const double length = distance(a, b);
+        const auto side = std::ranges::find_if(sides, [&](const Side& s) {
+            return std::max(std::abs(a[s.across] - s.at), std::abs(b[s.across] - s.at)) <= tolerance * length;
+        });
+        if (side == sides.end()) return;
+        side->length -= length;
+        side->edges.push_back(edge);
+    }
+    for (const Side& side : sides)  // each covered once: neither a gap nor a second piece on it
+        if (side.edges.empty() ||
+            std::abs(side.length) > tolerance * distance(mesh.nodes[static_cast<std::size_t>(side.edges[0].a)],
+                                                         mesh.nodes[static_cast<std::size_t>(side.edges[0].b)]))
+            return;
+    for (Side& side : sides) {
+        if (is_taken(mesh, side.name)) continue;
+        mesh.node_sets[side.name] = nodes_of(side.edges);
+        mesh.boundaries[side.name] = in_walking_order(side.edges);
+    }
+}
 
 void name_parts(Mesh& mesh, const std::vector<BoundaryPart>& parts) {
     std::vector<Problem> problems;

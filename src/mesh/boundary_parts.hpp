@@ -11,4 +11,8 @@ namespace gneiss {
 ///     edge that is cut by it (a traction on the part would not be the one that was asked for)
 void name_parts(Mesh& mesh, const std::vector<BoundaryPart>& parts);
 
+/// Where the contour is one rectangle along x and y, its sides become the boundaries "bottom", "right", "top", "left",
+/// those of these names that are free.
+void name_sides_of_rectangle(Mesh& mesh, const std::vector<BoundaryEdge>& contour);
+
 }  // namespace gneiss

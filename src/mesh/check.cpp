@@ -98,7 +98,7 @@ private:
     }
 
     void check_shapes() {
-        Labels not_finite, flat, repeated, inverted, folded;
+        Labels not_finite, flat, repeated, folded;
         for (std::size_t n = 0; n < draft_.nodes.size(); ++n)
             if (!(std::isfinite(draft_.nodes[n][0]) && std::isfinite(draft_.nodes[n][1])))
                 not_finite.push_back(draft_.node_labels[n]);
@@ -121,8 +121,6 @@ private:
             }
             if (std::abs(corners) < flat_ratio || flattest < flat_ratio)
                 flat.push_back(label);
-            else if (corners < 0)
-                inverted.push_back(label);
             else if (smallest < 0)
                 folded.push_back(label);
         }
@@ -130,7 +128,6 @@ private:
         error_about_nodes("coordinates that are not finite numbers", not_finite);
         error_about_elements("a node used twice", repeated);
         error_about_elements("zero area, of the whole or of one of its four sub-triangles", flat);
-        error_about_elements("inverted, nodes clockwise where those of the others run counter-clockwise", inverted);
         error_about_elements("folded, a mid-side node turns a sub-triangle inside out", folded);
     }
 
@@ -243,8 +240,6 @@ private:
                                   numbered("node", dangling)));
         }
         for (const auto& [name, nodes] : draft_.points) {
-            if (draft_.lines.count(name) > 0)
-                error(fmt::format("\"{}\" names both a curve and points: give them different names", name));
             Labels lost;
             for (std::int32_t node : nodes)
                 if (piece_of_node_[node] == MeshDraft::no_node) lost.push_back(draft_.node_labels[node]);

@@ -10,9 +10,9 @@
 
 namespace gneiss {
 
-/// What is wrong with a draft whose mid-side nodes are all there. Errors:
-/// - a coordinate that is not a number; an element of zero area or with a repeated node; an element whose corners run
-///   clockwise while others do not, or with a sub-triangle turned inside out by its mid-side nodes;
+/// What is wrong with a draft whose mid-side nodes are all there and whose elements run counter-clockwise. Errors:
+/// - a coordinate that is not a number; an element of zero area or with a repeated node; one with a sub-triangle turned
+///   inside out by its mid-side nodes;
 /// - elements on the same three corners; more than two elements at one side; two elements on the same side of it;
 ///   neighbours that share corners but not the node between them; a corner that is a mid-side of another element;
 /// - pieces that hang together in a node alone (a hinge: separate bodies need nodes of their own);

@@ -5,6 +5,7 @@
 
 #include "mesh/composite.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/regions.hpp"
 
 namespace gneiss {
 namespace {
@@ -30,6 +31,13 @@ void MeshDraft::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
     elements.push_back({a, no_node, b, no_node, c, no_node});
     element_labels.push_back(element_labels.empty() ? 1 : element_labels.back() + 1);
     region.push_back(0);
+}
+
+std::int32_t MeshDraft::region_of(const std::vector<std::string>& groups) {
+    const std::string name = name_of_overlap(groups);
+    auto at = std::find(region_names.begin(), region_names.end(), name);
+    if (at == region_names.end()) at = region_names.insert(at, name);
+    return static_cast<std::int32_t>(at - region_names.begin());
 }
 
 void add_mid_sides(MeshDraft& draft) {
@@ -63,11 +71,9 @@ void straighten_sides(MeshDraft& draft) {
 }
 
 void orient(MeshDraft& draft) {
-    const auto clockwise = [&](const std::array<std::int32_t, 6>& element) {
-        return triangle_area(draft.nodes[element[0]], draft.nodes[element[2]], draft.nodes[element[4]]) < 0;
-    };
-    if (!std::all_of(draft.elements.begin(), draft.elements.end(), clockwise)) return;
-    for (auto& element : draft.elements) std::reverse(element.begin() + 1, element.end());
+    for (auto& element : draft.elements)
+        if (triangle_area(draft.nodes[element[0]], draft.nodes[element[2]], draft.nodes[element[4]]) < 0)
+            std::reverse(element.begin() + 1, element.end());
 }
 
 }  // namespace gneiss

@@ -23,7 +23,7 @@ struct MeshDraft {
     std::vector<std::int64_t> element_labels;
     std::vector<std::int32_t> region;  ///< per element, index into region_names
     std::vector<std::string> region_names;
-    std::map<std::string, std::vector<double>> element_data;  ///< one number per element
+    std::map<std::string, std::vector<double>> element_data;  ///< one number per element; NaN: none
 
     std::map<std::string, std::vector<std::array<std::int32_t, 3>>> lines;  ///< corner, mid-side, corner; either sense
     std::map<std::string, std::vector<std::int32_t>> points;
@@ -32,6 +32,10 @@ struct MeshDraft {
 
     std::int32_t add_node(double x, double y);                          ///< labelled one above the last
     void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c);  ///< likewise, in the first region
+
+    /// Number of the region of what lies in these groups, new if need be; regions.hpp says how it is called.
+    /// @param groups  at least one, no two alike
+    std::int32_t region_of(const std::vector<std::string>& groups);
 };
 
 /// Makes the missing mid-side nodes of elements and lines, halfway between the corners. A side shared by elements gets
@@ -41,7 +45,7 @@ void add_mid_sides(MeshDraft& draft);
 /// Moves every mid-side node halfway between its corners.
 void straighten_sides(MeshDraft& draft);
 
-/// Turns all elements counter-clockwise if every one of them is clockwise; else leaves them for the checks to judge.
+/// Turns every element that runs clockwise: in a file each surface has the sense in which it was drawn.
 void orient(MeshDraft& draft);
 
 /// Orders elements along a Hilbert curve through their centroids and nodes by first touch, so that neighbours in the

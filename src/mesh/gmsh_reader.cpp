@@ -1,19 +1,17 @@
 #include "mesh/gmsh_reader.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
-#include <system_error>
+#include <limits>
+#include <set>
 #include <unordered_map>
 
 #include "mesh/check.hpp"
+#include "mesh/geo_file.hpp"
 #include "mesh/gmsh_session.hpp"
 
 namespace gneiss {
@@ -21,113 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that is gone when the reader is.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::string& text) {
-        std::string name = (fs::temp_directory_path() / "gneiss-XXXXXX.geo").string();
-        constexpr int suffix_length = 4;
-        const int descriptor = mkstemps(name.data(), suffix_length);
-        if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "temporary file " + name);
-        close(descriptor);
-        path_ = name;
-        std::ofstream(path_) << text;
-    }
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    std::string path() const { return path_.string(); }
-
-private:
-    fs::path path_;
-};
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file);
-    if (!stream) throw InputError(file.string(), "cannot be opened for reading");
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
-/// The text with // and /* */ comments blanked out. A string that holds // loses its end, which does no harm below.
-std::string without_comments(std::string text) {
-    for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos && at + 1 < text.size();) {
-        std::size_t end = at + 1;
-        if (text[at + 1] == '/')
-            end = text.find('\n', at);
-        else if (text[at + 1] == '*')
-            end = std::min(text.find("*/", at + 2), text.size() - 2) + 2;
-        end = std::min(end, text.size());
-        if (end > at + 1) std::fill(text.begin() + static_cast<long>(at), text.begin() + static_cast<long>(end), ' ');
-        at = end;
-    }
-    return text;
-}
-
-bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-bool is_name(const std::string& text) {
-    return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
-           std::all_of(text.begin(), text.end(), is_name_character);
-}
-
-bool has_word(const std::string& text, const std::string& word) {
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-        const std::size_t end = at + word.size();
-        const bool starts = at == 0 || !is_name_character(text[at - 1]);
-        if (starts && (end == text.size() || !is_name_character(text[end]))) return true;
-    }
-    return false;
-}
-
-/// What would go wrong unseen: Gmsh skips a last line without line break, Exit ends the whole process, and parameters
-/// that nobody asks for are taken in silence.
-void check_geo(const fs::path& file, const std::map<std::string, double>& parameters) {
-    const std::string text = text_of(file);
-    const std::string geo = without_comments(text);
-    const bool reads_others = has_word(geo, "Include") || has_word(geo, "Merge");  // a parameter may be used there
-    std::vector<Problem> problems;
-    if (!text.empty() && text.back() != '\n')
-        problems.push_back({file.string(), "the last line does not end in a line break: Gmsh would skip it"});
-    if (has_word(geo, "Exit"))
-        problems.push_back({file.string(), "the statement Exit would end the program: use Abort, or take it out"});
-    for (const auto& [name, value] : parameters) {
-        if (!is_name(name))
-            problems.push_back({file.string(), fmt::format("parameter \"{}\" is not a name that Gmsh can read", name)});
-        else if (!reads_others && !has_word(geo, name))
-            problems.push_back({file.string(), fmt::format("parameter \"{}\" does not occur in the file", name)});
-    }
-    if (!problems.empty()) throw InputError(problems);
-}
-
-void mesh_geo(const GmshSession& session, const fs::path& file, const std::map<std::string, double>& parameters) {
-    const std::string where = file.string();
-    check_geo(file, parameters);
-    // Gmsh refuses to read an empty file: a comment makes sure that there is something.
-    std::string definitions = "// parameters\n", comparisons = definitions;
-    for (const auto& [name, value] : parameters) {
-        definitions += fmt::format("{} = {:.17g};\n", name, value);
-        comparisons += fmt::format(
-            "If({0} != {1:.17g})\n Error(\"parameter {0} is overwritten by the file: define it there by "
-            "DefineConstant[ {0} = ... ]\");\nEndIf\n",
-            name, value);
-    }
-    const TemporaryFile before(definitions), after(comparisons);
-    session.run(where, [&] {
-        gmsh::merge(before.path());
-        gmsh::merge(where);
-        gmsh::merge(after.path());
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> elements, nodes;
-        gmsh::model::mesh::getElements(types, elements, nodes, 2);
-        if (types.empty()) gmsh::model::mesh::generate(2);
-        gmsh::model::mesh::setOrder(2);
-    });
-}
+constexpr const char* default_region = "solid";  // of surfaces in no group
 
 constexpr int line_2 = 1, triangle_3 = 2, line_3 = 8, triangle_6 = 9;  // Gmsh's numbers of element types
 
@@ -142,7 +34,8 @@ std::string type_name(int type) {
 /// Turns Gmsh's current model into a draft and collects what is wrong with it on the way.
 class ModelReader {
 public:
-    explicit ModelReader(const std::string& where) { draft_.where = where; }
+    /// @param is_version_2  of the format, or 1: groups are told of elements, not of surfaces
+    ModelReader(const std::string& where, bool is_version_2) : is_version_2_(is_version_2) { draft_.where = where; }
 
     MeshDraft read() {
         refuse_solids();
@@ -219,38 +112,63 @@ private:
 
     void read_triangles() {
         std::map<int, std::vector<std::string>> groups_of_surface;
-        for_each_member(2, [&](const std::string& name, int surface) { groups_of_surface[surface].push_back(name); });
+        for_each_member(2, [&](const std::string& name, int surface) {
+            auto& groups = groups_of_surface[surface];
+            if (std::find(groups.begin(), groups.end(), name) == groups.end()) groups.push_back(name);
+        });
+        std::vector<int> without_group;
+        std::size_t n_without = 0;
         gmsh::vectorpair surfaces;
         gmsh::model::getEntities(surfaces, 2);
         for (const auto& [dim, surface] : surfaces) {
-            std::int32_t region = 0;
             const auto groups = groups_of_surface.find(surface);
-            if (groups_of_surface.empty())
-                region = region_number("solid");
-            else if (groups != groups_of_surface.end())
-                region = region_number(groups->second[0]);
             for_each_type(2, surface, [&](int type, const Tags& elements, const Tags& nodes) {
                 if (type != triangle_3 && type != triangle_6) {
                     refuse(type, elements);
                     return;
                 }
-                if (!groups_of_surface.empty() && groups == groups_of_surface.end())
-                    error(fmt::format(
-                        "{} triangles, of which element {} is the first, are on surface {}, which belongs to "
-                        "no physical group while other surfaces do",
-                        elements.size(), elements.at(0), surface));
-                else if (groups != groups_of_surface.end() && groups->second.size() > 1)
-                    error(fmt::format("surface {} belongs to more than one physical group: \"{}\" and \"{}\"", surface,
-                                      groups->second[0], groups->second[1]));
-                add_triangles(type, elements, nodes, region);
+                if (groups != groups_of_surface.end() && groups->second.size() > 1 && is_version_2_ &&
+                    !has_repeated(nodes, type == triangle_3 ? 3 : 6))
+                    error(
+                        fmt::format("elements of groups \"{}\" share the geometrical tag {}, and Gmsh puts all of them "
+                                    "in each group: "
+                                    "give every group geometrical tags of its own (meshio: cell_data "
+                                    "\"gmsh:geometrical\", equal to "
+                                    "\"gmsh:physical\"), or write version 4.1",
+                                    fmt::join(groups->second, "\", \""), surface));
+                if (groups == groups_of_surface.end()) {
+                    if (without_group.empty() || without_group.back() != surface) without_group.push_back(surface);
+                    n_without += elements.size();
+                }
+                add_triangles(type, elements, nodes,
+                              groups == groups_of_surface.end() ? draft_.region_of({default_region})
+                                                                : draft_.region_of(groups->second));
             });
         }
+        if (!without_group.empty() && !groups_of_surface.empty())
+            draft_.warnings.push_back(fmt::format(
+                "{} triangles on {}, in no physical group while others are in some: they are region \"{}\"", n_without,
+                numbered("surface", {without_group.begin(), without_group.end()}), default_region));
+    }
+
+    /// Whether elements come more than once: version 2 writes them once for each of their groups.
+    static bool has_repeated(const Tags& nodes, std::size_t per_element) {
+        std::set<std::vector<std::size_t>> seen;
+        for (std::size_t first = 0; first < nodes.size(); first += per_element)
+            if (!seen.emplace(nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                              nodes.begin() + static_cast<std::ptrdiff_t>(first + per_element))
+                     .second)
+                return true;
+        return false;
     }
 
     /// Gmsh numbers the corners first, then the mid-sides after corner 1, 2 and 3.
     void add_triangles(int type, const Tags& elements, const Tags& nodes, std::int32_t region) {
         const std::size_t n = type == triangle_3 ? 3 : 6;
+        std::set<std::vector<std::size_t>> seen;  // those of version 2 come once for each of their groups
         for (std::size_t e = 0; e < elements.size(); ++e) {
+            const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(n * e);
+            if (is_version_2_ && !seen.emplace(first, first + static_cast<std::ptrdiff_t>(n)).second) continue;
             std::array<std::int32_t, 6> element;
             for (std::size_t i = 0; i < 3; ++i) {
                 element[2 * i] = node(nodes[n * e + i]);
@@ -260,13 +178,6 @@ private:
             draft_.element_labels.push_back(static_cast<std::int64_t>(elements[e]));
             draft_.region.push_back(region);
         }
-    }
-
-    std::int32_t region_number(const std::string& name) {
-        auto& names = draft_.region_names;
-        auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end()) at = names.insert(at, name);
-        return static_cast<std::int32_t>(at - names.begin());
     }
 
     void read_lines() {
@@ -293,6 +204,8 @@ private:
         });
     }
 
+    /// Data are no reason to refuse a mesh: what cannot be taken is warned of, and is an error where a deck asks for
+    /// it.
     void read_data() {
         std::vector<int> views;
         gmsh::view::getTags(views);
@@ -302,36 +215,40 @@ private:
             Tags tags;
             std::vector<std::vector<double>> rows;
             double time;
-            int n_components;
+            int n_components = 0;
             gmsh::view::getModelData(view, 0, kind, tags, rows, time, n_components);
+            if (kind.empty()) continue;  // a view that a script has made: sizes of elements, say
             if (kind != "ElementData") {
                 draft_.warnings.push_back(fmt::format("{} \"{}\" is not read: only ElementData is", kind, name));
                 continue;
             }
-            if (n_components != 1) {
-                error(fmt::format("element data \"{}\" have {} components; only one is read", name, n_components));
-                continue;
+            std::unordered_map<std::size_t, double> value_of;
+            for (std::size_t i = 0; i < tags.size() && n_components == 1; ++i) value_of[tags[i]] = rows[i].at(0);
+            if (draft_.element_data.contains(name)) {
+                value_of.clear();
+                draft_.warnings.push_back(fmt::format("element data \"{}\" are given twice: neither is taken", name));
             }
-            std::map<std::size_t, double> value_of;
-            for (std::size_t i = 0; i < tags.size(); ++i) value_of[tags[i]] = rows[i].at(0);
-            add_data(name, value_of);
+            if (n_components != 1)
+                draft_.warnings.push_back(
+                    fmt::format("element data \"{}\" have {} components: only one is read", name, n_components));
+            draft_.element_data[name] = values_of_elements(name, value_of);
         }
     }
 
-    void add_data(const std::string& name, const std::map<std::size_t, double>& value_of) {
-        std::vector<std::int64_t> missing;
+    /// @param value_of  by label; empty: none can be taken, which has been said
+    std::vector<double> values_of_elements(const std::string& name,
+                                           const std::unordered_map<std::size_t, double>& value_of) {
         std::vector<double> values;
+        std::vector<std::int64_t> missing;
         for (std::int64_t label : draft_.element_labels) {
             const auto at = value_of.find(static_cast<std::size_t>(label));
-            if (at == value_of.end())
-                missing.push_back(label);
-            else
-                values.push_back(at->second);
+            values.push_back(at == value_of.end() ? std::numeric_limits<double>::quiet_NaN() : at->second);
+            if (at == value_of.end()) missing.push_back(label);
         }
-        if (!missing.empty())
-            error(fmt::format("element data \"{}\" are missing for {}", name, numbered("element", missing)));
-        else if (!draft_.element_data.emplace(name, std::move(values)).second)
-            error(fmt::format("element data \"{}\" are given twice", name));
+        if (!missing.empty() && !value_of.empty())
+            draft_.warnings.push_back(
+                fmt::format("element data \"{}\" have no number for {}", name, numbered("element", missing)));
+        return values;
     }
 
     static std::string view_name(int tag) {
@@ -342,26 +259,63 @@ private:
     }
 
     MeshDraft draft_;
+    const bool is_version_2_;
     std::vector<Problem> problems_;
     std::unordered_map<std::size_t, std::int32_t> number_of_node_;
 };
 
 }  // namespace
 
-MeshDraft draft_of_current_model(const std::string& where) { return ModelReader(where).read(); }
+MeshDraft draft_of_current_model(const std::string& where) { return ModelReader(where, false).read(); }
 
-MeshDraft read_gmsh(const fs::path& file, const std::map<std::string, double>& parameters) {
+namespace {
+
+/// Whether groups are told of elements: so it was up to version 2.2.
+bool is_version_2(const fs::path& file) {
+    std::ifstream stream(file);
+    std::string word;
+    stream >> word;
+    double version = 0;
+    if (word == "$MeshFormat") stream >> version;
+    constexpr double first_with_entities = 3;
+    return version < first_with_entities;
+}
+
+/// @throws InputError if the file is of another program that ends its meshes in .msh too; Gmsh would take it for a
+/// script
+void check_msh(const fs::path& file) {
+    std::ifstream stream(file);
+    if (!stream) throw InputError(file.string(), "cannot be opened for reading");
+    char first = 0;
+    if (!(stream >> first)) throw InputError(file.string(), "is empty");
+    if (first == '$') return;
+    if (first == '(')
+        throw InputError(
+            file.string(),
+            "is a mesh of ANSYS Fluent, not of Gmsh: \"meshio convert --input-format ansys --output-format "
+            "gmsh\" makes one of it");
+    throw InputError(file.string(), "is no mesh of Gmsh: the file does not begin with $MeshFormat");
+}
+
+/// Gmsh's word on a view that does not belong to a mesh.
+bool is_list_of_a_script(const std::string& error) { return error.find("contain model data") != std::string::npos; }
+
+}  // namespace
+
+MeshDraft read_gmsh(const fs::path& file, const std::map<std::string, double>& parameters, bool aloud) {
     const std::string where = file.string();
     if (!fs::is_regular_file(file)) throw InputError(where, "there is no such file");
-    const GmshSession session;
     const bool is_geo = file.extension() == ".geo";
+    if (!is_geo) check_msh(file);
+    GmshSession session(aloud);
     if (is_geo)
         mesh_geo(session, file, parameters);
     else
         session.run(where, [&] { gmsh::merge(where); });
-    MeshDraft draft = session.run(where, [&] { return draft_of_current_model(where); });
-    draft.report_unused_nodes = !is_geo;  // a .geo has construction points, the centres of arcs for one
     const std::vector<std::string> warnings = session.warnings();
+    MeshDraft draft = session.run(
+        where, [&] { return ModelReader(where, !is_geo && is_version_2(file)).read(); }, is_list_of_a_script);
+    draft.report_unused_nodes = !is_geo;  // a .geo has construction points, the centres of arcs for one
     draft.warnings.insert(draft.warnings.end(), warnings.begin(), warnings.end());
     add_mid_sides(draft);
     return draft;

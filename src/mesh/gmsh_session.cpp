@@ -15,10 +15,10 @@ std::mutex& one_at_a_time() {
 
 }  // namespace
 
-GmshSession::GmshSession()
+GmshSession::GmshSession(bool aloud)
     : lock_(one_at_a_time()), n_threads_(omp_get_max_threads()), locale_(std::setlocale(LC_ALL, nullptr)) {
     gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.Terminal", aloud ? 1 : 0);
     gmsh::option::setNumber("General.AbortOnError", 0);
     gmsh::logger::start();
 }
@@ -37,15 +37,39 @@ GmshSession::~GmshSession() {
 std::vector<std::string> GmshSession::log_lines(const std::string& prefix) const {
     std::vector<std::string> log, found;
     gmsh::logger::get(log);
-    for (const std::string& line : log)
-        if (line.rfind(prefix, 0) == 0) found.push_back("Gmsh: " + line.substr(prefix.size()));
+    bool in_summary = false;
+    for (const std::string& line : log) {
+        if (!line.starts_with(prefix)) continue;
+        std::string text = line.substr(prefix.size());
+        if (text.starts_with("----")) {
+            in_summary = !in_summary;
+            continue;
+        }
+        if (in_summary) continue;
+        for (const auto& [file, name] : names_)
+            for (std::size_t at = text.find(file); at != std::string::npos; at = text.find(file, at + name.size()))
+                text.replace(at, file.size(), name);
+        found.push_back("Gmsh: " + text);
+    }
     return found;
 }
 
-void GmshSession::throw_errors(const std::string& where, std::size_t n_before) const {
+std::vector<std::string> GmshSession::warnings() const {
+    std::vector<std::string> all = log_lines("Warning: ");
+    all.insert(all.end(), harmless_.begin(), harmless_.end());
+    return all;
+}
+
+void GmshSession::throw_errors(const std::string& where, std::size_t n_before,
+                               const std::function<bool(const std::string&)>& harmless) {
     const std::vector<std::string> found = errors();
     std::vector<Problem> problems;
-    for (std::size_t i = n_before; i < found.size(); ++i) problems.push_back({where, found[i]});
+    for (std::size_t i = n_before; i < found.size(); ++i) {
+        if (harmless && harmless(found[i]))
+            harmless_.push_back(found[i]);
+        else
+            problems.push_back({where, found[i]});
+    }
     if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/inner_sides.hpp"
+#include "mesh/regions.hpp"
 
 namespace gneiss {
 namespace {
@@ -68,7 +69,7 @@ void require_all(const InnerLine& line, const std::vector<Covered>& covered) {
 
 void name_line(Mesh& mesh, std::span<const InnerSide> sides, const InnerLine& line) {
     if (mesh.node_sets.contains(line.name) || mesh.inner_lines.contains(line.name) ||
-        std::ranges::find(mesh.region_names, line.name) != mesh.region_names.end())
+        !regions_named(mesh, line.name).empty())
         throw InputError("", "the mesh has something of this name already");
     const std::vector<Covered> covered = sides_on(mesh, sides, line);
     require_all(line, covered);

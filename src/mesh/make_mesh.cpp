@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "mesh/abaqus_reader.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/boundary_parts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/composite.hpp"
 #include "mesh/generators.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/inner_lines.hpp"
+#include "mesh/mesh_process.hpp"
 
 namespace gneiss {
 namespace {
@@ -23,7 +24,9 @@ using NodePair = std::pair<std::int32_t, std::int32_t>;
 MeshDraft draft_of(const MeshOptions& options, const std::filesystem::path& base_dir) {
     switch (options.source) {
         case MeshOptions::Source::file:
-            return read_gmsh(base_dir / options.file, options.parameters);
+            return std::filesystem::path(options.file).extension() == ".inp"
+                       ? read_abaqus(base_dir / options.file)
+                       : read_gmsh_apart(base_dir / options.file, options.parameters);
         case MeshOptions::Source::rectangle:
             return rectangle(options);
         case MeshOptions::Source::quadrilateral:
@@ -92,11 +95,21 @@ void name_boundaries(Mesh& mesh, const MeshDraft& draft, MeshReport& report) {
                             name));
     }
     mesh.inner_lines = sides_inside(mesh, draft, contour_edges);
-    for (const auto& [name, nodes] : draft.points) mesh.node_sets[name] = ascending(nodes);
+    for (const auto& [name, nodes] : draft.points) {  // names are per dimension: a curve may have the same
+        std::vector<std::int32_t>& set = mesh.node_sets[name];
+        const std::size_t of_curve = set.size();
+        set.insert(set.end(), nodes.begin(), nodes.end());
+        set = ascending(std::move(set));
+        if (of_curve > 0 && set.size() > of_curve)
+            report.warnings.push_back(fmt::format(
+                "\"{}\" names a curve and points beside it: tractions act on the curve, conditions on nodes on both",
+                name));
+    }
     if (mesh.node_sets.count("boundary") == 0) {
         mesh.boundaries["boundary"] = whole;
         mesh.node_sets["boundary"] = nodes_of(whole);
     }
+    if (draft.lines.empty()) name_sides_of_rectangle(mesh, whole);
 }
 
 /// The two sides of sub-triangles that each side of a composite becomes.

@@ -17,7 +17,8 @@ struct MeshReport {
 };
 
 /// The mesh that the options describe: made or read, checked (check.hpp), renumbered for locality (renumber() of
-/// draft.hpp). Besides the boundaries that have names, "boundary" is the whole contour, unless the file uses this name.
+/// draft.hpp). Besides the boundaries that have names, "boundary" is the whole contour, unless the file uses this name;
+/// where nothing else on the contour has one and it is a rectangle, its sides have theirs (name_sides_of_rectangle()).
 /// A boundary consists of contour edges only; the sides of a named line inside the solid are in inner_lines. A line
 /// that is both is warned of.
 /// @param compt     false: CST by split_composites(), on the same nodes

@@ -21,14 +21,14 @@ void require_positive(std::vector<Problem>& problems, const char* key, double va
 
 void validate_file(std::vector<Problem>& problems, const MeshOptions& options) {
     if (options.file.empty()) {
-        problems.push_back({"mesh", "file is missing: name a .msh or a .geo file"});
+        problems.push_back({"mesh", "file is missing: name a .msh, .geo or .inp file"});
         return;
     }
     const std::string extension = std::filesystem::path(options.file).extension();
-    if (extension != ".msh" && extension != ".geo")
-        problems.push_back({"mesh", fmt::format("file = \"{}\" must end in .msh or .geo", options.file)});
-    if (extension == ".msh" && !options.parameters.empty())
-        problems.push_back({"mesh", "parameters belong to a .geo file; a .msh is read as it is"});
+    if (extension != ".msh" && extension != ".geo" && extension != ".inp")
+        problems.push_back({"mesh", fmt::format("file = \"{}\" must end in .msh, .geo or .inp", options.file)});
+    if ((extension == ".msh" || extension == ".inp") && !options.parameters.empty())
+        problems.push_back({"mesh", "parameters belong to a .geo file; others are read as they are"});
     for (const auto& [name, value] : options.parameters)
         if (!std::isfinite(value))
             problems.push_back({"mesh", fmt::format("parameters.{} = {} must be finite", name, value)});

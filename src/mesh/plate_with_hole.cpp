@@ -102,7 +102,7 @@ MeshDraft structured_plate_with_hole(const MeshOptions& options) {
 }
 
 MeshDraft free_plate_with_hole(const MeshOptions& options) {
-    const GmshSession session;
+    GmshSession session;
     MeshDraft draft = session.run("mesh", [&] {
         namespace geo = gmsh::model::geo;
         gmsh::model::add("plate_with_hole");

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
 #include "mesh/measure.hpp"
+#include "mesh/regions.hpp"
 #include "model/blocks/make_block.hpp"
 #include "model/formula.hpp"
 #include "model/material_axes.hpp"
@@ -23,7 +24,8 @@ std::vector<std::int32_t> material_of_region(const Mesh& mesh, const std::vector
                                              std::vector<Problem>& problems) {
     std::vector<std::int32_t> of_region(mesh.region_names.size(), no_material);
     std::string known;
-    for (const std::string& name : mesh.region_names) known += (known.empty() ? "" : ", ") + name;
+    const std::vector<std::string> all_names = names_of_regions(mesh);
+    for (const std::string& name : all_names) known += (known.empty() ? "" : ", ") + name;
     std::int32_t rest = no_material;
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const auto number = static_cast<std::int32_t>(m);
@@ -35,18 +37,26 @@ std::vector<std::int32_t> material_of_region(const Mesh& mesh, const std::vector
             rest = number;
         }
         for (const std::string& name : materials[m].regions) {
-            const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
-            if (region == mesh.region_names.end()) {
-                const std::vector<std::string_view> names(mesh.region_names.begin(), mesh.region_names.end());
+            const std::vector<std::int32_t> regions = regions_named(mesh, name);
+            if (regions.empty()) {
+                const std::vector<std::string_view> names(all_names.begin(), all_names.end());
                 problems.push_back({where(m), fmt::format("the mesh has no region `{}`; it has: {}{}", name, known,
                                                           suggestion(name, names))});
                 continue;
             }
-            std::int32_t& taken = of_region[static_cast<std::size_t>(region - mesh.region_names.begin())];
-            if (taken != no_material)
-                problems.push_back(
-                    {where(m), fmt::format("region `{}` belongs to material {} already", name, taken + 1)});
-            taken = number;
+            for (const std::int32_t region : regions) {
+                std::int32_t& taken = of_region[static_cast<std::size_t>(region)];
+                const std::string& part = mesh.region_names[static_cast<std::size_t>(region)];
+                if (taken != no_material && taken != number)
+                    problems.push_back(
+                        {where(m),
+                         part == name
+                             ? fmt::format("region `{}` belongs to material {} already", name, taken + 1)
+                             : fmt::format("region `{}` overlaps with others: `{}` belongs to material {} already; "
+                                           "materials may name those groups only that share no element",
+                                           name, part, taken + 1)});
+                taken = number;
+            }
         }
     }
     for (std::size_t r = 0; r < of_region.size(); ++r) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/vec2.hpp"
+#include "mesh/check.hpp"
 #include "mesh/measure.hpp"
 #include "model/formula.hpp"
 
@@ -102,8 +103,17 @@ std::vector<double> axis_angles(const Mesh& mesh, std::span<const std::int32_t> 
                                                              options.data, known.empty() ? "none" : known)});
                 break;
             }
-            for (std::size_t i = 0; i < elements.size(); ++i)
-                angles[i] = data->second[static_cast<std::size_t>(elements[i])];
+            std::vector<std::int64_t> missing;
+            for (std::size_t i = 0; i < elements.size(); ++i) {
+                const auto e = static_cast<std::size_t>(elements[i]);
+                angles[i] = data->second[e];
+                if (std::isnan(angles[i])) missing.push_back(mesh.element_labels[e]);
+            }
+            if (!missing.empty())
+                problems.push_back(
+                    {"axes.data", fmt::format("element data `{}` of the mesh file have no number for {}: "
+                                              "one component is needed, given once",
+                                              options.data, numbered("element", missing))});
             break;
         }
     }

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
+#include "mesh/regions.hpp"
 
 namespace gneiss {
 namespace {
@@ -18,9 +19,7 @@ std::vector<std::string> keys(const Map& map) {
     return names;
 }
 
-bool is_region(const Mesh& mesh, const std::string& name) {
-    return std::find(mesh.region_names.begin(), mesh.region_names.end(), name) != mesh.region_names.end();
-}
+bool is_region(const Mesh& mesh, const std::string& name) { return !regions_named(mesh, name).empty(); }
 
 /// @param wanted  "boundary", "nodes", "region", "line inside the solid": what the name should have been
 InputError unknown_name(const Mesh& mesh, const std::string& name, const std::string& wanted,
@@ -78,12 +77,11 @@ const std::vector<std::int32_t>& nodes_named(const Mesh& mesh, const std::string
 }
 
 std::vector<std::int32_t> elements_named(const Mesh& mesh, const std::string& region) {
-    const auto found = std::find(mesh.region_names.begin(), mesh.region_names.end(), region);
-    if (found == mesh.region_names.end()) throw unknown_name(mesh, region, "region", mesh.region_names);
-    const auto wanted = static_cast<std::int32_t>(found - mesh.region_names.begin());
+    const std::vector<std::int32_t> wanted = regions_named(mesh, region);
+    if (wanted.empty()) throw unknown_name(mesh, region, "region", names_of_regions(mesh));
     std::vector<std::int32_t> elements;
     for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
-        if (mesh.region[e] == wanted) elements.push_back(static_cast<std::int32_t>(e));
+        if (std::ranges::binary_search(wanted, mesh.region[e])) elements.push_back(static_cast<std::int32_t>(e));
     }
     return elements;
 }
@@ -92,13 +90,14 @@ std::vector<std::int32_t> region_or_nodes_named(const Mesh& mesh, const std::str
     const auto set = mesh.node_sets.find(name);
     if (is_region(mesh, name)) {
         std::vector<std::int32_t> nodes = nodes_of(mesh, elements_named(mesh, name));
-        if (set != mesh.node_sets.end() && set->second != nodes) {
+        // a curve called like its surface, or points on it, add nothing
+        if (set != mesh.node_sets.end() && !std::ranges::includes(nodes, set->second)) {
             throw InputError("", fmt::format("on = \"{}\": both a region and a set of nodes have this name", name));
         }
         return nodes;
     }
     if (set != mesh.node_sets.end()) return set->second;
-    std::vector<std::string> names = mesh.region_names;
+    std::vector<std::string> names = names_of_regions(mesh);
     for (const std::string& other : keys(mesh.node_sets)) {
         if (!is_region(mesh, other)) names.push_back(other);
     }

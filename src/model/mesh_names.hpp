@@ -19,7 +19,8 @@ const std::vector<ElementSide>& inner_line_named(const Mesh& mesh, const std::st
 const std::vector<std::int32_t>& nodes_named(const Mesh& mesh, const std::string& name);
 /// Numbers of the elements of a region, ascending.
 std::vector<std::int32_t> elements_named(const Mesh& mesh, const std::string& region);
-/// Nodes of a region or of a set, ascending. A name that means both is refused, unless it means the same nodes.
+/// Nodes of a region or of a set, ascending. A name that means both is refused, unless
+/// the nodes are among those of the region.
 std::vector<std::int32_t> region_or_nodes_named(const Mesh& mesh, const std::string& name);
 
 }  // namespace gneiss

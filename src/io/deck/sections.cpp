@@ -25,8 +25,8 @@ bool read_parameters(const Value& value, TableReader&, MeshOptions& out) {
 bool read_mesh_file(const Value& value, TableReader&, MeshOptions& out) {
     if (!value.read(out.file)) return false;
     out.source = MeshOptions::Source::file;
-    if (out.file.ends_with(".msh") || out.file.ends_with(".geo")) return true;
-    value.refuse("a file of Gmsh, ending in .msh or .geo");
+    if (out.file.ends_with(".msh") || out.file.ends_with(".geo") || out.file.ends_with(".inp")) return true;
+    value.refuse("a file of Gmsh, ending in .msh or .geo, or of Abaqus, ending in .inp");
     return false;
 }
 
@@ -148,7 +148,9 @@ const Section<MeshOptions>& mesh_section() {
                    {.required = true, .or_else = "file", .meaning = "shape that is meshed here; or give `file`"}),
          custom<M>(
              "file", "a string", "",
-             {.meaning = "mesh of Gmsh, `.msh` (version 4.1) or `.geo`, relative to the deck; or give `generator`"},
+             {.meaning =
+                  "mesh of Gmsh, `.msh` (of any version) or `.geo`, or of Abaqus, `.inp`, relative to the deck; or "
+                  "give `generator`"},
              read_mesh_file),
          custom<M>("parameters", "a table of numbers", "",
                    {.only_for = file, .meaning = "numbers defined before a `.geo` is read, `{ name = number, … }`"},

@@ -156,8 +156,12 @@ bool Value::read(double& out, const NumberRule& rule) const {
 bool Value::read(int& out, const NumberRule& rule) const {
     const toml::value<std::int64_t>* integer = node_->as_integer();
     if (integer == nullptr) {
-        problem(fmt::format("given {}{}, must be an integer{}", given(), kind_of(*node_),
-                            rule.range.requirement(rule.unit)));
+        const std::optional<double> number = as_number(*node_);
+        const bool is_whole = number && *number == std::trunc(*number) && std::abs(*number) < 1e9;
+        problem(fmt::format(
+            "given {}{}, must be an integer{}{}", is_whole ? fmt::format("{:.1f}", *number) : given(), kind_of(*node_),
+            rule.range.requirement(rule.unit),
+            is_whole ? fmt::format(": write {:.0f}, what has a point is no integer in TOML", *number) : ""));
         return false;
     }
     const std::int64_t number = integer->get();

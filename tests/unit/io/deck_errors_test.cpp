@@ -68,6 +68,9 @@ TEST(DeckErrors, TypesAndRanges) {
         {{"material=[]"}, {"key `material`: given none, must be at least one [[material]]"}},
         {{"material=[3]"}, {"key `material[0]`: given 3, must be a table"}},
         {{"mesh.cells=[1.5, 2]"}, {"key `mesh.cells[0]`: given 1.5 (a number), must be an integer ≥ 1"}},
+        {{"mesh.cells=[2.0, 2]"},
+         {"key `mesh.cells[0]`: given 2.0 (a number), must be an integer ≥ 1: write 2, what has a point is no integer "
+          "in TOML"}},
         {{"mesh.cells=[5000000000, 2]"}, {"key `mesh.cells[0]`: given 5000000000, must be an integer of 32 bits"}},
         {{"mesh.cells=[1, 2, 3]"}, {"key `mesh.cells`: given [1, 2, 3], must be an array of 2 integers ≥ 1"}},
         {{"mesh.origin=[0, nan]"}, {"key `mesh.origin[1]`: given nan, must be finite (m)"}},
@@ -170,7 +173,8 @@ TEST(DeckErrors, Mesh) {
          {"key `mesh.generator`: missing (or `file`), must be one of \"rectangle\", \"quadrilateral\", "
           "\"plate_with_hole\""}},
         {{"mesh={ file = 'a.stl' }"},
-         {"key `mesh.file`: given \"a.stl\", must be a file of Gmsh, ending in .msh or .geo"}},
+         {"key `mesh.file`: given \"a.stl\", must be a file of Gmsh, ending in .msh or .geo, or of Abaqus, ending in "
+          ".inp"}},
         {{"mesh.file=a.msh"}, {"key `mesh.file`: given together with `generator`, a mesh comes from one of them"}},
         {{"mesh.radius=1"},
          {"key `mesh.radius`: only for `generator` = \"plate_with_hole\", here `generator` is \"rectangle\""}},

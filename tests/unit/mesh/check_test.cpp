@@ -71,12 +71,6 @@ TEST(Check, NodeUsedTwice_IsReportedByLabel) {
                 ::testing::Contains("a node used twice: element 1002"));
 }
 
-TEST(Check, InvertedAmongOthers_IsReportedByLabel) {
-    EXPECT_THAT(
-        found_in(triangles(unit_square, {{0, 1, 2}, {0, 3, 2}})).errors,
-        ::testing::Contains("inverted, nodes clockwise where those of the others run counter-clockwise: element 1002"));
-}
-
 TEST(Check, MidSideThatFoldsASubTriangle_IsReportedByLabel) {
     MeshDraft draft = triangles(unit_square, {{0, 1, 2}, {0, 2, 3}});
     add_mid_sides(draft);
@@ -177,7 +171,6 @@ TEST(Check, NamesOnNothing_AreReported) {
     draft.lines["diagonal"] = {{1, MeshDraft::no_node, 3}};
     EXPECT_THAT(found_in(draft).errors,
                 ElementsAre("curve \"diagonal\" does not run along sides of elements: nodes 102 and 104",
-                            "\"left\" names both a curve and points: give them different names",
                             "points \"sensor\" name what belongs to no element: node 105"));
 }
 

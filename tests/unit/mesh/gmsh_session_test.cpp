@@ -20,7 +20,7 @@ TEST(GmshSession, NumberOfThreadsAndLocale_AreGivenBack) {
     const int n_threads = omp_get_max_threads();
     const std::string locale = std::setlocale(LC_ALL, nullptr);
     omp_set_num_threads(3);
-    { const GmshSession session; }
+    { GmshSession session; }
     EXPECT_EQ(omp_get_max_threads(), 3);
     EXPECT_EQ(std::setlocale(LC_ALL, nullptr), locale);
     omp_set_num_threads(n_threads);
@@ -34,31 +34,61 @@ TEST(GmshSession, Options_DoNotOutliveIt) {
     };
     double before;
     {
-        const GmshSession session;
+        GmshSession session;
         before = algorithm();
         gmsh::option::setNumber("Mesh.Algorithm", before + 1);
     }
-    const GmshSession session;
+    GmshSession session;
     EXPECT_EQ(algorithm(), before);
 }
 
 TEST(GmshSession, Failure_BecomesInputErrorWithTheFile) {
-    const GmshSession session;
+    GmshSession session;
     EXPECT_EQ(input_error_of([&] { session.run("plate.geo", [] { gmsh::logger::write("no such curve", "error"); }); }),
               "plate.geo: Gmsh: no such curve");
 }
 
 TEST(GmshSession, Warnings_AreKept) {
-    const GmshSession session;
+    GmshSession session;
     session.run("plate.geo", [] { gmsh::logger::write("a thin triangle", "warning"); });
     EXPECT_THAT(session.warnings(), ::testing::ElementsAre("Gmsh: a thin triangle"));
+}
+
+TEST(GmshSession, HarmlessError_JoinsTheWarnings) {
+    GmshSession session;
+    const auto is_harmless = [](const std::string& error) { return error.find("option") != std::string::npos; };
+    session.run(
+        "plate.geo", [] { gmsh::logger::write("no such option", "error"); }, is_harmless);
+    EXPECT_THAT(session.warnings(), ::testing::ElementsAre("Gmsh: no such option"));
+    EXPECT_EQ(input_error_of([&] {
+                  session.run(
+                      "plate.geo", [] { gmsh::logger::write("no such curve", "error"); }, is_harmless);
+              }),
+              "plate.geo: Gmsh: no such curve");
+}
+
+TEST(GmshSession, SummaryOfWhatWasSaid_IsLeftOut) {
+    GmshSession session;
+    session.run("plate.geo", [] {
+        for (const char* line : {"a thin triangle", "------------------------------", "Mesh generation error summary",
+                                 "    1 warning", "------------------------------", "another one"})
+            gmsh::logger::write(line, "warning");
+    });
+    EXPECT_THAT(session.warnings(), ::testing::ElementsAre("Gmsh: a thin triangle", "Gmsh: another one"));
+}
+
+TEST(GmshSession, FileThatIsCalledOtherwise_IsSoInMessages) {
+    GmshSession session;
+    session.call("/tmp/copy.geo", "plate.geo");
+    session.run("plate.geo", [] { gmsh::logger::write("'/tmp/copy.geo', line 3: odd", "warning"); });
+    EXPECT_THAT(session.warnings(), ::testing::ElementsAre("Gmsh: 'plate.geo', line 3: odd"));
 }
 
 TEST(GmshSession, MeshingAndFailing_PrintsNothing) {
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     {
-        const GmshSession session;
+        GmshSession session;
         gmsh::logger::write("quiet", "info");
         gmsh::logger::write("quiet", "warning");
         input_error_of([&] { session.run("x", [] { gmsh::logger::write("quiet", "error"); }); });

@@ -79,7 +79,7 @@ TEST(MeshOptions, BadFile_ReportsEveryProblem) {
     EXPECT_THAT(validate(options), ElementsAre(says("file is missing")));
     options.file = "plate.vtk";
     options.parameters = {{"lc", std::numeric_limits<double>::infinity()}};
-    EXPECT_THAT(validate(options), ElementsAre(says("\"plate.vtk\" must end in .msh or .geo"),
+    EXPECT_THAT(validate(options), ElementsAre(says("\"plate.vtk\" must end in .msh, .geo or .inp"),
                                                says("parameters.lc = inf must be finite")));
     options.file = "plate.msh";
     options.parameters = {{"lc", 0.1}};

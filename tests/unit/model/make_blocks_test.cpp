@@ -107,6 +107,19 @@ TEST(MakeBlocks, RegionOfTwoMaterials_IsReported) {
                 ElementsAre("[[material]] 2: region `rock` belongs to material 1 already"));
 }
 
+TEST(MakeBlocks, GroupsThatOverlap_GoByThoseThatMaterialsName) {
+    Mesh mesh = test::rectangle_mesh();
+    mesh.region_names = {"rock & source", "clay & source"};
+    EXPECT_EQ(make_blocks(mesh, {}, {of({"rock"}), of({"clay"})}).size(), 2u);
+    EXPECT_EQ(make_blocks(mesh, {}, {of({"source"})}).size(), 1u);
+    EXPECT_THAT(
+        messages({of({"rock"}), of({"source"})}, {}, mesh),
+        ElementsAre("[[material]] 2: region `source` overlaps with others: `rock & source` belongs to material 1 "
+                    "already; materials may name those groups only that share no element"));
+    EXPECT_THAT(messages({of({"rock"})}, {}, mesh),
+                ElementsAre("[[material]]: no material for region `clay & source`"));
+}
+
 TEST(MakeBlocks, TwoMaterialsForTheRest_AreReported) {
     EXPECT_THAT(messages({of({}), of({})}), ElementsAre("[[material]] 2: names no region, like material 1: only one "
                                                         "material can take all regions that no other names"));

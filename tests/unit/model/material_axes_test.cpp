@@ -174,6 +174,20 @@ TEST_F(AxisAngles, Data_IsTakenByElement) {
     EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(AxisAngles, Data_OfSomeElements_AreAskedForWhereTheMaterialIs) {
+    options_.kind = AxesOptions::Kind::data;
+    options_.data = "dip";
+    mesh_.element_data = {{"dip", {std::numeric_limits<double>::quiet_NaN(), 0.2}}};
+    elements_ = {1};
+    EXPECT_THAT(angles(), ElementsAre(0.2));
+    EXPECT_THAT(problems_, IsEmpty());
+    elements_ = {0, 1};
+    angles();
+    ASSERT_EQ(problems_.size(), 1u);
+    EXPECT_EQ(problems_[0].message,
+              "element data `dip` of the mesh file have no number for element 1: one component is needed, given once");
+}
+
 TEST_F(AxisAngles, Data_Missing_IsReportedWithWhatThereIs) {
     options_.kind = AxesOptions::Kind::data;
     options_.data = "dip";

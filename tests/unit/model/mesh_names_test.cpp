@@ -74,13 +74,22 @@ TEST(MeshNames, Unknown_RegionOrNodes_ListsBoth) {
               "\"bottom\", \"corner\", \"left\", \"outer\", \"right\", \"top\"; did you mean \"rock\"?");
 }
 
-TEST(MeshNames, Ambiguous_RegionAndNodesOfOneName_AreRefusedUnlessTheSame) {
+TEST(MeshNames, RegionAndNodesOfOneName_AreTheRegionUnlessTheyLieBesideIt) {
     Mesh mesh = test::rectangle_mesh();
-    mesh.node_sets["rock"] = {0, 1, 2};
+    mesh.node_sets["rock"] = {0, 1};  // its rim, say: names of a mesh file are per dimension
     EXPECT_THAT(region_or_nodes_named(mesh, "rock"), ElementsAre(0, 1, 2));
-    mesh.node_sets["rock"] = {0, 1};
+    mesh.node_sets["rock"] = {0, 3};
     EXPECT_EQ(message_of([&] { region_or_nodes_named(mesh, "rock"); }),
               "on = \"rock\": both a region and a set of nodes have this name");
+}
+
+TEST(MeshNames, GroupsThatOverlap_StandForAllOfTheirRegions) {
+    Mesh mesh = test::rectangle_mesh();
+    mesh.region_names = {"rock & source", "source"};
+    EXPECT_THAT(elements_named(mesh, "rock"), ElementsAre(0));
+    EXPECT_THAT(elements_named(mesh, "source"), ElementsAre(0, 1));
+    EXPECT_EQ(message_of([&] { elements_named(mesh, "clay"); }),
+              "on = \"clay\": the mesh has no region of this name; there are: \"rock\", \"source\"");
 }
 
 }  // namespace
