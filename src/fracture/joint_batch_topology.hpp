@@ -193,12 +193,21 @@ bool JointBatch<Law, extrinsic>::any_failed(std::span<const double> history) con
 template <class Law, bool extrinsic>
 std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& accepted,
                                                                    std::span<const double> history) const {
+    constexpr auto offset_row = [] {
+        std::size_t row = 0;
+        if constexpr (extrinsic)
+            while (History::members[row] != &History::opening_offset) ++row;
+        return row;
+    }();
     const auto lets_go = [&](std::size_t joint) {
         if (untouched(history, joint / pack_width) || !(history[entry(joint, failure_row)] > 0)) return false;
         const auto motion = motion_of(joint, accepted.u);
         bool open = true, far = false;
         for (std::size_t i = 0; i < joint_points; ++i) {
-            open = open && motion.opening[i] >= 0;
+            // an end that began under pressure presses until it has opened by what its spring was compressed
+            double closed_below = 0;
+            if constexpr (extrinsic) closed_below = std::max(0.0, -history[entry(joint, member_row(i, offset_row))]);
+            open = open && motion.opening[i] >= closed_below;
             far = far || std::max(motion.opening[i], std::abs(motion.slip[i])) > far_way * motion.length;
         }
         return open || far;

@@ -11,12 +11,22 @@ from studies.common.bounds import Bound, main
 BOUNDS = {
     "joint_energy_error_max": Bound(1e-3, 1e-3),
     "joint_path_error_max": Bound(1e-6, 1e-6),
+    # An end that opens is found within a hundredth of its strength (fracture.overshoot), and softens from there.
+    "joint_energy_error_extrinsic": Bound(2e-3, 2e-3),
+    "joint_path_error_extrinsic": Bound(1e-2, 1e-2),
+    "shear_box_peak_error_extrinsic": Bound(1e-2, 1e-2),
+    "shear_box_peak_error_intrinsic": Bound(1e-2, 1e-2),
+    "shear_box_residual_error": Bound(1e-3, 1e-3),
+    "shear_box_energy_error": Bound(1e-3, 1e-3),
+    "bending_peak_error_extrinsic": Bound(2e-2, 2e-2),
+    "bending_peak_error_intrinsic": Bound(2e-2, 2e-2, "joints on every edge are slow at rest", may_skip=True),
     # by the trapezoidal rule over load steps
     "joint_friction_error": Bound(1e-3, 1e-3),
     # Pressure comes with round-off of the opening alone.
     "joint_friction_elsewhere": Bound(1e-3, 1e-3),
     "dcb_load_error": Bound(0.05, 0.05),
     "dcb_load_error_dynamic": Bound(0.05, 0.05),
+    "dcb_load_error_extrinsic": Bound(0.05, 0.05),
     "dcb_crack_reached_over_h": Bound(19.0, 8.5, "the crack is not followed further", at_least=True),
     # what is left: dispersion of the pulse, of other size with other speeds
     "intrinsic_speed_series_difference_max": Bound(2e-3, 2e-3),

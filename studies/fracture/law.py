@@ -25,7 +25,7 @@ def softening(damage: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class Properties:
-    """Of an intrinsic joint, SI units."""
+    """Of a joint, SI units."""
 
     tensile: float
     cohesion: float
@@ -34,6 +34,7 @@ class Properties:
     G_I: float
     G_II: float
     penalty: float  # k, Pa/m
+    extrinsic: bool = False  # it begins at the envelope, its springs loaded
 
     @property
     def opening_at_peak(self) -> float:
@@ -50,9 +51,9 @@ class Properties:
                 + self.cohesion * self.slip_at_peak * (1 - omega) / self.G_II)
 
     def rate(self, omega: ArrayLike) -> Array:
-        """q = dD/d lambda, intrinsic."""
+        """q = dD/d lambda."""
         b = self.elastic_ratio(omega)
-        return SOFTENING_INTEGRAL * b / (1 - b / 2)
+        return SOFTENING_INTEGRAL * b / (1 if self.extrinsic else 1 - b / 2)
 
     def last_lambda(self, omega: float) -> float:
         """lambda at which D reaches 1 on a ray of constant omega."""
@@ -69,12 +70,20 @@ class Answer:
     damage: Array
 
 
-def traction(p: Properties, opening: ArrayLike, slip: ArrayLike) -> Answer:
-    """Along a path whose points are close to each other. Opening while friction acts is not asked for here."""
+def traction(p: Properties, opening: ArrayLike, slip: ArrayLike, start: tuple[float, float] = (0.0, 0.0)) -> Answer:
+    """Along a path whose points are close to each other. Opening while friction acts is not asked for here.
+    start: of an extrinsic joint, normal and shear traction at o = s = 0, on the envelope, Pa."""
     o_all, s_all = np.asarray(opening, dtype=float), np.asarray(slip, dtype=float)
     normal, shear, friction, damage = (np.zeros_like(o_all) for _ in range(4))
     parted, share, slider, d, lam_max = False, 0.0, 0.0, 0.0, 1.0
     x_old = y_old = 0.0
+    if p.extrinsic:
+        parted = True
+        rubs = float(np.sign(start[1])) * min(p.friction * max(-start[0], 0.0), abs(start[1]))
+        o_all = o_all + start[0] / p.penalty
+        share = -(start[1] - rubs) / p.penalty
+        slider = -rubs / p.penalty
+        x_old, y_old = max(start[0], 0.0) / p.tensile, (start[1] - rubs) / p.cohesion
     for i, (o, s) in enumerate(zip(o_all, s_all)):
         closing = p.penalty * max(-o, 0.0)
         if not parted:

@@ -15,8 +15,9 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from studies.fracture.experiments import branching, brazilian, contact, dcb, joint, kalthoff, speed
+from studies.fracture.experiments import bending, branching, brazilian, contact, dcb, joint, kalthoff, shear_box, speed
 
-EXPERIMENTS: dict[str, ModuleType] = {"joint": joint, "dcb": dcb, "speed": speed, "brazilian": brazilian, "contact": contact,
+EXPERIMENTS: dict[str, ModuleType] = {"joint": joint, "shear_box": shear_box, "bending": bending,
+                                      "dcb": dcb, "speed": speed, "brazilian": brazilian, "contact": contact,
                                       "branching": branching, "kalthoff": kalthoff}
 CHECKED: dict[str, ModuleType] = {}

@@ -4,7 +4,8 @@ import unittest
 import numpy as np
 
 from studies.fracture.cases import checked_decks, decks, sweeps
-from studies.fracture.experiments import CHECKED, EXPERIMENTS, branching, brazilian, contact, dcb, kalthoff, speed
+from studies.fracture.experiments import (CHECKED, EXPERIMENTS, bending, branching, brazilian, contact, dcb,
+                                          kalthoff, shear_box, speed)
 from studies.fracture.experiments.joint import HALF, LAW, turning_points
 
 
@@ -66,6 +67,24 @@ class TestClosedForms(unittest.TestCase):
             beam = dcb.beam_length(opening, force)
             self.assertAlmostEqual(float(beam), crack + dcb.CHI * dcb.ARM)
             self.assertAlmostEqual(float(12 * force**2 * beam**2 / (dcb.YOUNG * dcb.ARM**3)), dcb.SEAM["G_I"])
+
+    def test_BothMethods_OneKeyApart(self):
+        for first, second in ((shear_box.deck(m, "cst", 8) for m in shear_box.METHODS),
+                              (bending.breaking_deck(m, 10) for m in bending.METHODS["full"])):
+            self.assertNotEqual(first["fracture"], second["fracture"])
+            self.assertEqual({k: v for k, v in first.items() if k not in ("fracture", "title")},
+                             {k: v for k, v in second.items() if k not in ("fracture", "title")})
+
+    def test_ShearBox_StrengthIsThatOfTheSeam(self):
+        self.assertAlmostEqual(shear_box.PEAK, 20e3)
+        self.assertAlmostEqual(shear_box.RESIDUAL, 8e3)
+
+    def test_Bending_SoftensFromTheStrengthToNothing(self):
+        opening = np.linspace(0, 4e-4, 4001)
+        traction = bending.softened(opening)
+        self.assertAlmostEqual(float(traction[0]), bending.SEAM["tensile"])
+        self.assertEqual(float(traction[-1]), 0.0)
+        self.assertAlmostEqual(float(np.trapz(traction, opening)) / bending.SEAM["G_I"], 1.0, places=4)
 
     def test_Disc_NarrowArc_IsThePointLoad(self):
         across, along = brazilian.centre_stress(1.0)
