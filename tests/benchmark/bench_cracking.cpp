@@ -40,7 +40,7 @@ void cracking_step(::benchmark::State& state, bool compt, Method method) {
     if (method != Method::none) {
         properties = edge_properties(mesh, edges, parts.blocks, {material}, fracture, {}, {}, warnings);
         if (method == Method::extrinsic) {
-            watch_strength(edges, properties, parts.blocks);
+            watch_strength(mesh, edges, properties, parts.blocks, watch_reach(fracture.criterion));
             joints = make_extrinsic_joints(inner, properties, solid.thickness);
         } else {
             joints = make_cohesion(mesh, edges, properties, method, solid.thickness);
@@ -53,8 +53,12 @@ void cracking_step(::benchmark::State& state, bool compt, Method method) {
     if (joints) parts.interactions.push_back(std::move(joints));
     SolidSystem system(mesh, std::move(parts));
     if (cohesion != nullptr)
-        system.add_event(std::make_unique<Cracking>(Cracking::Parts{
-            .mesh = mesh, .inner = inner, .solid = system, .joints = *cohesion, .properties = std::move(properties)}));
+        system.add_event(std::make_unique<Cracking>(Cracking::Parts{.mesh = mesh,
+                                                                    .inner = inner,
+                                                                    .solid = system,
+                                                                    .joints = *cohesion,
+                                                                    .properties = std::move(properties),
+                                                                    .thickness = solid.thickness}));
     CentralDifference integrator({.safety = 0.8, .bound_interval = 1024});
     State at = system.initial_state();
     integrator.start(system, at, StartReason::fresh);
