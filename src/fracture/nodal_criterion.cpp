@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "fracture/side_criterion.hpp"
+#include <utility>
 
 namespace gneiss {
 namespace {
@@ -98,26 +97,6 @@ double NodalCriterion::find_utilisation(const State& state) {
     for_each_node(state,
                   [&](const Fan&, const NodeRupture& rupture) { largest = std::max(largest, rupture.utilisation); });
     return largest;
-}
-
-WatchReach watch_reach(FractureOptions::Criterion criterion) {
-    // At a tip the force on a node, over the little area that the interfaces there represent, is larger than any
-    // stress: half a ring of elements pulls at two interfaces, or at one beside an open crack.
-    if (criterion == FractureOptions::Criterion::nodal) return {true, 3};
-    return {};
-}
-
-std::unique_ptr<CrackCriterion> make_crack_criterion(FractureOptions::Criterion criterion,
-                                                     CrackCriterion::Parts parts) {
-    switch (criterion) {
-        case FractureOptions::Criterion::mean:
-            return std::make_unique<SideCriterion>(parts, SideCriterion::Of::mean);
-        case FractureOptions::Criterion::larger:
-            return std::make_unique<SideCriterion>(parts, SideCriterion::Of::larger);
-        case FractureOptions::Criterion::nodal:
-            break;
-    }
-    return std::make_unique<NodalCriterion>(parts);
 }
 
 }  // namespace gneiss

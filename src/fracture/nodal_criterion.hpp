@@ -29,9 +29,8 @@ private:
     std::int64_t look_ = 0;
     std::vector<std::int64_t> looked_at_;  ///< per node
     std::vector<std::int32_t> candidates_;
-    // forces on edges and faces, by node: first_force_ is shape (nodes + 1), -1 where there are none
-    bool has_corner_forces_ = false;
-    std::vector<CornerForce> corner_forces_;
+    bool has_corner_forces_ = false;          ///< whether those of this look are known
+    std::vector<CornerForce> corner_forces_;  ///< on edges and faces, by ascending node
     Fan fan_;
     NodeRupture rupture_;
     std::vector<FanCorner> corners_;
