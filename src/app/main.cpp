@@ -55,6 +55,10 @@ void add_case_options(CLI::App& command, RunArguments& run) {
         ->type_name("N");
 }
 
+void add_overwrite_option(CLI::App& command, RunArguments& run) {
+    command.add_flag("--overwrite", run.overwrite, "replace finished results of another deck in the folder");
+}
+
 void add_results_options(CLI::App& command, RunArguments& run, const char* restart) {
     command.add_option("--out", run.out, "folder of the results [results/CASE]")->type_name("DIR");
     command.add_option("--restart", run.restart, restart)->type_name("FILE");
@@ -107,11 +111,13 @@ int main(int argc, char** argv) {
     CLI::App* run_command = app.add_subcommand("run", "run a case; results go to a folder of their own");
     add_case_options(*run_command, run);
     add_results_options(*run_command, run, "go on from a checkpoint.h5");
+    add_overwrite_option(*run_command, run);
     run_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* compare_command =
         app.add_subcommand("compare", "run a case under the schemes of its [compare]; table, work and precision");
     add_case_options(*compare_command, run);
     compare_command->add_option("--out", run.out, "folder of the results [results/CASE-compare]")->type_name("DIR");
+    add_overwrite_option(*compare_command, run);
     compare_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* check_command =
         app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");

@@ -55,7 +55,7 @@ CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::
 }
 
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    ComparisonDecks decks{read_deck(file, set), {}};
+    ComparisonDecks decks{read_deck(file, set), {}, {}};
     if (!decks.options.compare)
         throw InputError(file.string(), "has no table [compare]: schemes to run, and what to measure them against");
     const CompareOptions& compare = *decks.options.compare;
@@ -70,11 +70,16 @@ ComparisonDecks read_comparison(const std::filesystem::path& file, const std::ve
     output.erase("fields");  // so would these
     output.erase("field_times");
     output.insert_or_assign("states", decks.options.run.t_end / compare.samples);
-    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
-        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
+    const auto toml_text = [&document] {
         std::ostringstream text;
         text << toml::toml_formatter(document) << '\n';
-        decks.runs.push_back({scheme, variant.setting, text.str()});
+        return text.str();
+    };
+    document.erase("integrator");
+    decks.problem = toml_text();
+    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
+        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
+        decks.runs.push_back({scheme, variant.setting, toml_text()});
     };
     if (compare.reference) add("reference", *compare.reference);
     for (const SchemeOptions& scheme : compare.schemes)

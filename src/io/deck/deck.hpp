@@ -28,6 +28,7 @@ struct ComparisonDecks {
         std::string deck;  ///< TOML: without [compare], frames and checkpoints, with states, files by their whole names
     };
     CaseOptions options;    ///< of the deck itself
+    std::string problem;    ///< TOML: what all runs have in common, their decks without [integrator]
     std::vector<Run> runs;  ///< the reference first, where there is one
 };
 /// @throws InputError as read_deck does, and if there is nothing to compare
