@@ -326,6 +326,8 @@ int Comparison::carry_out_all() {
     make_folder(out_);
     const FolderLock lock(out_, "gneiss compare " + fs::absolute(arguments_.deck).string());
     keep_other_comparison();
+    if (!arguments_.quiet)
+        for (const std::string& note : decks_.notes) fmt::print(stderr, "gneiss: warning: {}\n", note);
     std::vector<ComparedRun> runs;
     for (std::size_t number = 0; number < decks_.runs.size() && !stop_.requested(); ++number) {
         runs.push_back(carry_out_one(number));

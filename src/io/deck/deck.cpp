@@ -37,25 +37,30 @@ std::string text_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set) {
+CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set,
+                       const std::optional<std::filesystem::path>& folder, DeckNotes* notes) {
     deck::Findings findings;
+    findings.folder = folder;
     const toml::table document = parse_document(text, name, set, findings);
     CaseOptions options;
     deck::TableReader table(findings, document, deck::Position{name, 1, 1}, "");
     deck::read_section(deck::case_section(), table, options);
     findings.throw_if_any();
+    if (notes != nullptr) *notes = {findings.notes(false), findings.notes(true)};
     return options;
 }
 
-CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    CaseOptions options = parse_deck(text_of(file), file.string(), set);
+CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set, DeckNotes* notes) {
+    CaseOptions options = parse_deck(text_of(file), file.string(), set, file.parent_path(), notes);
     if (options.mesh.source == MeshOptions::Source::file)
         options.mesh.file = (file.parent_path() / options.mesh.file).string();
     return options;
 }
 
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    ComparisonDecks decks{read_deck(file, set), {}, {}};
+    DeckNotes notes;
+    ComparisonDecks decks{read_deck(file, set, &notes), {}, {}, {}};
+    decks.notes = std::move(notes.on_compare);
     if (!decks.options.compare)
         throw InputError(file.string(), "has no table [compare]: schemes to run, and what to measure them against");
     const CompareOptions& compare = *decks.options.compare;
