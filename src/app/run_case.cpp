@@ -13,6 +13,7 @@
 #include "app/crack_frames.hpp"
 #include "app/field_frames.hpp"
 #include "app/make_integrator.hpp"
+#include "app/plausibility.hpp"
 #include "app/run_summary.hpp"
 #include "app/schedule.hpp"
 #include "app/state_series.hpp"
@@ -114,6 +115,7 @@ private:
     std::string fingerprint_;
     std::shared_ptr<spdlog::logger> log_;
     std::vector<std::string> warnings_;  ///< given so far, each once, those of the balance apart
+    Plausibility looked_;
     State state_;
     RunProgress progress_;
     std::size_t first_step_ = 0;  ///< of this part of the run
@@ -141,13 +143,16 @@ private:
 
 Run::Run(const RunArguments& arguments) : arguments_(arguments) {
     const std::string too_many_threads = use_threads(arguments.threads);
-    CaseOptions options = read_deck(arguments.deck, arguments.set);
+    DeckNotes notes;
+    CaseOptions options = read_deck(arguments.deck, arguments.set, &notes);
     deck_text_ = deck_text(arguments);
     fingerprint_ = fingerprint_text(deck_text_);
     out_ = arguments_.out.empty() ? fs::path("results") / arguments_.deck.stem() : arguments_.out;
     if (fs::exists(out_)) take_folder();  // before minutes go into a mesh
     case_ = build_case(std::move(options));
+    case_.warnings.insert(case_.warnings.begin(), notes.on_case.begin(), notes.on_case.end());
     check_linear_solver(case_.options.integrator, *case_.system);
+    looked_ = plausibility(case_, out_);
     schedule_.emplace(case_.options, case_.integrator->interpolates());
     balance_watch_.emplace(case_.options, case_.integrator->is_static());
     state_ = case_.system->initial_state();
@@ -194,7 +199,9 @@ void Run::open_results() {
     const MeshSize size = mesh_size(*case_.mesh);
     log_->info("mesh: {} elements, {} nodes, edges {:.4g} to {:.4g} m", size.n_elements, size.n_nodes,
                size.smallest_edge, size.largest_edge);
+    for (const auto& [name, value] : looked_.facts) log_->info("{}: {}", name, value);
     for (const std::string& warning : case_.warnings) warn(warning);
+    for (const std::string& warning : looked_.warnings) warn(warning);
     if (resumed_) log_->info("restart: {}, t = {:.9g}", arguments_.restart->string(), state_.t);
     if (!other_deck_.empty())
         warn(fmt::format("restart: the checkpoint was written under another deck ({})", other_deck_));
@@ -380,6 +387,7 @@ int Run::end_unbalanced() {
 
 int Run::end_failed(const std::exception& error) {
     std::string message = error.what();
+    if (!looked_.overload.empty()) message += "; likely cause: " + looked_.overload;
     if (begun_)
         message +=
             fmt::format("; the last good state, t = {:.9g} s, is in {}", state_.t, (out_ / "checkpoint.h5").string());
