@@ -34,11 +34,14 @@ std::string only_in(const Integers& held, const Integers& other, const Mesh& mes
     std::ranges::set_difference(held, other, std::back_inserter(only));
     if (only.empty()) return {};
     std::string text = fmt::format("{} component{}", only.size(), only.size() == 1 ? "" : "s");
-    for (const auto& [name, nodes] : mesh.node_sets)
-        if (std::ranges::all_of(only, [&nodes](std::int64_t dof) {
-                return std::ranges::binary_search(nodes, static_cast<std::int32_t>(dof / 2));
+    const std::pair<const std::string, std::vector<std::int32_t>>* least = nullptr;  // set that has all of them
+    for (const auto& set : mesh.node_sets)
+        if ((least == nullptr || set.second.size() < least->second.size()) &&
+            std::ranges::all_of(only, [&set](std::int64_t dof) {
+                return std::ranges::binary_search(set.second, static_cast<std::int32_t>(dof / 2));
             }))
-            return text + fmt::format(" on `{}`", name);
+            least = &set;
+    if (least != nullptr) return text + fmt::format(" on `{}`", least->first);
     const auto& first = mesh.nodes[static_cast<std::size_t>(only.front() / 2)];
     return text +
            fmt::format(", among them {} at ({:.6g}, {:.6g}) m", only.front() % 2 == 0 ? "x" : "y", first[0], first[1]);
@@ -122,9 +125,10 @@ std::string load_checkpoint(const std::filesystem::path& path, const Case& built
             path.string(),
             "was written for another mesh or other laws than the deck gives, or by a program built for other packs");
     if (checkpoint.get<std::string>("integrator") != built.integrator->name())
-        throw InputError(path.string(),
-                         fmt::format("was written by integrator `{}`, the deck has `{}`",
-                                     checkpoint.get<std::string>("integrator"), built.integrator->name()));
+        throw InputError(
+            path.string(),
+            fmt::format("was written by integrator `{}`, the deck has `{}`: a restart goes on under the same scheme",
+                        checkpoint.get<std::string>("integrator"), built.integrator->name()));
     need_same_case(path.string(), checkpoint, built);
     if (built.cracking != nullptr) built.cracking->replay(checkpoint.get<Vector>("cracks"));
     if (built.touches != nullptr && checkpoint.contains("touches"))

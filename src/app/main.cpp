@@ -79,6 +79,14 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return {words.rbegin(), words.rend()};
 }
 
+/// An override that is none, "key" of `--set key value`; empty if there is none.
+std::string broken_override(int argc, char** argv) {
+    for (int i = 1; i + 1 < argc; ++i)
+        if (std::string_view(argv[i]) == "--set" && std::string_view(argv[i + 1]).find('=') == std::string_view::npos)
+            return argv[i + 1];
+    return {};
+}
+
 /// @return exit code
 int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
     const RunArguments& run = arguments.run;
@@ -136,7 +144,12 @@ int main(int argc, char** argv) {
         app.exit(help);
         return argc > 1 ? exit_code::done : exit_code::bad_input;
     } catch (const CLI::ExtrasError& error) {
-        if (!app.get_subcommands().empty()) return app.exit(error), exit_code::bad_input;
+        if (!app.get_subcommands().empty()) {
+            if (const std::string key = broken_override(argc, argv); !key.empty())
+                std::cerr << fmt::format("gneiss: --set {}: must be key=value without blanks, as in run.t_end=0.01\n",
+                                         key);
+            return app.exit(error), exit_code::bad_input;
+        }
         std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1],
                                  suggestion(argv[1], {"run", "compare", "check", "matrices", "list"}));
         return exit_code::bad_input;

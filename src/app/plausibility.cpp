@@ -17,6 +17,7 @@
 #include "mesh/measure.hpp"
 #include "model/formula.hpp"
 #include "model/make_blocks.hpp"
+#include "model/mesh_names.hpp"
 
 namespace gneiss {
 namespace {
@@ -28,6 +29,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double large_load = 0.1;
 /// Strengths of rock, concrete, glass, steel are 1e-5 to 1e-2 of their moduli, of weak soil 1e-6.
 constexpr double small_strength = 1e-7;
+constexpr double strength_in_pascals = 1e4;  ///< strengths in MPa are below, those of clay in Pa are not
 constexpr double few_steps = 10;
 constexpr double light = 100, heavy = 3e4;  ///< kg/m3: foams are lighter, osmium is 2.26e4
 constexpr double dimensionless = 1;         ///< density of those who scale their equations
@@ -38,6 +40,8 @@ constexpr std::array<double, 2> plain_gravity{9.7, 10.01};  ///< m/s2, as they w
 /// mesh of ten elements does not resolve.
 constexpr double out_of_balance = 0.1;
 constexpr std::size_t most_samples = 2000;  ///< elements of a material of which speeds are found
+
+constexpr std::string_view prefix = "plausibility: ";
 
 struct Inspection {
     Inspection(const Case& built, fs::path folder);
@@ -50,6 +54,7 @@ struct Inspection {
     void gravity();
     void stress_in_situ();
     void faces_of_cracks();
+    void absorbing();
     void output();
 
     template <class... Args>
@@ -58,7 +63,7 @@ struct Inspection {
     }
     template <class... Args>
     void warn(fmt::format_string<Args...> text, Args&&... args) {
-        found.warnings.push_back("plausibility: " + fmt::format(text, std::forward<Args>(args)...));
+        found.warnings.push_back(std::string(prefix) + fmt::format(text, std::forward<Args>(args)...));
     }
     std::string name_of_material(std::size_t m) const {
         const auto& regions = options.materials[m].regions;
@@ -144,7 +149,7 @@ void Inspection::waves() {
     if (speed > fastest && !built.integrator->is_static()) {
         warn("a velocity of {:.4g} m/s is prescribed, waves run at {:.4g} m/s at most: are moduli in Pa, lengths in m?",
              speed, fastest);
-        found.overload = found.warnings.back();
+        found.overload = found.warnings.back().substr(prefix.size());
     }
 }
 
@@ -158,7 +163,7 @@ void Inspection::loads() {
                 "{}: {} at ({:.4g}, {:.4g}) m is {:.2g} of the modulus there, {:.4g} Pa: are moduli and loads in Pa, "
                 "lengths in m?",
                 peak.name, peak.value, peak.x, peak.y, peak.over_modulus, peak.modulus);
-            if (found.overload.empty()) found.overload = found.warnings.back();
+            if (found.overload.empty()) found.overload = found.warnings.back().substr(prefix.size());
         }
         if (peak.shortest_time > 0 && !built.integrator->is_static()) {
             const double length = 2 * peak.shortest_time * slowest;  // half a period
@@ -177,7 +182,8 @@ void Inspection::steps() {
         dt = integrator.safety * 2 / built.system->frequency_bound(built.system->initial_state()).omega;
     if (dt > 0 && options.run.t_end < few_steps * dt)
         warn(
-            "run.t_end, {:.4g} s, is {:.2g} steps of {:.4g} s; the fastest wave crosses the mesh of {:.4g} x {:.4g} m "
+            "run.t_end, {:.4g} s, is no more than {:.2g} steps of {:.4g} s; the fastest wave crosses the "
+            "mesh of {:.4g} x {:.4g} m "
             "in "
             "{:.3g} s: are lengths in m, times in s, densities in kg/m3?",
             options.run.t_end, options.run.t_end / dt, dt, width, height, std::max(width, height) / fastest);
@@ -222,10 +228,7 @@ void Inspection::strengths() {
                  "{}: tensile {:.4g} Pa, {:.2g} of the modulus; a crack softens over {:.3g} m, {:.3g} edges "
                  "of {:.3g} m",
                  name_of_material(m), tensile, tensile / E, length, length / size.largest_edge, size.largest_edge);
-        if (tensile < small_strength * E)
-            warn("{}: a tensile strength of {:.4g} Pa is {:.2g} of the modulus, {:.4g} Pa: are both in Pa?",
-                 name_of_material(m), tensile, tensile / E, E);
-        if (tensile > large_load * E)
+        if (tensile < small_strength * E && tensile < strength_in_pascals)
             warn("{}: a tensile strength of {:.4g} Pa is {:.2g} of the modulus, {:.4g} Pa: are both in Pa?",
                  name_of_material(m), tensile, tensile / E, E);
         const double friction =
@@ -346,6 +349,21 @@ void Inspection::faces_of_cracks() {
             "keeps them apart");
 }
 
+void Inspection::absorbing() {
+    const auto held = [this](std::int32_t node, std::size_t c) {
+        return std::ranges::binary_search(built.system->constraints(), 2 * static_cast<std::size_t>(node) + c, {},
+                                          &Constraint::dof);
+    };
+    for (std::size_t i = 0; i < options.boundaries.size(); ++i) {
+        const BoundaryOptions& boundary = options.boundaries[i];
+        if (boundary.kind != BoundaryOptions::Kind::absorbing) continue;
+        if (std::ranges::all_of(nodes_named(mesh, boundary.on),
+                                [&](std::int32_t node) { return held(node, 0) && held(node, 1); }))
+            warn("[[boundary]] {}: nothing is absorbed on \"{}\", another [[boundary]] gives its motion in x and y",
+                 i + 1, boundary.on);
+    }
+}
+
 void Inspection::output() {
     const double t_end = options.run.t_end;
     for (const auto& [key, interval] :
@@ -385,6 +403,7 @@ Plausibility plausibility(const Case& built, const fs::path& folder) {
     look.stress_in_situ();
     look.faces_of_cracks();
     look.steps();
+    look.absorbing();
     look.output();
     return std::move(look.found);
 }

@@ -178,6 +178,7 @@ void Run::load_restart() {
 }
 
 void Run::take_folder() {
+    make_folder(out_);
     lock_.emplace(out_, "gneiss run " + fs::absolute(arguments_.deck).string());
     if (arguments_.overwrite) return;
     std::vector<std::string> own{fingerprint_};
@@ -186,7 +187,6 @@ void Run::take_folder() {
 }
 
 void Run::open_results() {
-    make_folder(out_);
     if (!lock_) take_folder();
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "io/deck/overrides.hpp"
@@ -12,6 +13,23 @@ namespace gneiss {
 
 namespace {
 
+std::string line_of(std::string_view text, unsigned number) {
+    std::istringstream stream{std::string(text)};
+    std::string line;
+    for (unsigned i = 0; i < number && std::getline(stream, line);) ++i;
+    return line;
+}
+
+/// What people mean who write a line that is no TOML.
+std::string hint_to_syntax(const std::string& line) {
+    static const std::regex comma(R"(=\s*[+-]?\d+,\d)"), word(R"(=\s*(True|False|TRUE|FALSE|yes|no|on|off)\b)"),
+        colon(R"(^\s*\w+\s*:)");
+    if (std::regex_search(line, comma)) return "; decimals are written with a point, 0.001";
+    if (std::regex_search(line, word)) return "; TOML has `true` and `false`";
+    if (std::regex_search(line, colon)) return "; a key and its value are written `key = value`";
+    return "";
+}
+
 /// The deck as TOML, with what is set laid over it.
 toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& set,
                            deck::Findings& findings) {
@@ -19,8 +37,9 @@ toml::table parse_document(std::string_view text, const std::string& name, const
     try {
         document = toml::parse(text, name);
     } catch (const toml::parse_error& error) {
-        throw InputError(deck::position_of(error.source(), {name, 1, 1}).text(),
-                         fmt::format("no valid TOML: {}", error.description()));
+        const deck::Position place = deck::position_of(error.source(), {name, 1, 1});
+        throw InputError(place.text(), fmt::format("no valid TOML: {}{}", error.description(),
+                                                   hint_to_syntax(line_of(text, place.line))));
     }
     for (const std::string& argument : set) deck::apply_override(document, argument, findings);
     return document;

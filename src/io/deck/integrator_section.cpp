@@ -7,13 +7,13 @@
 namespace gneiss::deck {
 namespace {
 
-/// Keys that fit the scheme and yet have no effect beside others of its keys.
-void refuse_idle_keys(TableReader& table, IntegratorOptions& out) {
+/// Keys that fit the scheme and yet have no effect beside others of its keys, and those that are missing.
+void check_integrator(TableReader& table, IntegratorOptions& out) {
     using I = IntegratorOptions;
     const I usual;
     const auto idle = [&](std::string_view key, auto I::*member, std::vector<std::string_view> deciders,
                           const std::string& reason) {
-        if (!table.given(key) || table.failed(key)) return;
+        if (!table.given(key) || table.failed(key) || out.*member == usual.*member) return;
         deciders.push_back("type");
         const std::string why = "it has no effect: " + reason;
         if (!table.leave_out(key, deciders, why)) table.problem(key, why + std::string(swap_way_out));
@@ -32,6 +32,8 @@ void refuse_idle_keys(TableReader& table, IntegratorOptions& out) {
         idle("linear_tolerance", &I::linear_tolerance, {decider, "solver"}, reason);
         idle("most_linear_iterations", &I::most_linear_iterations, {decider, "solver"}, reason);
     };
+    if ((out.type == "bathe" || out.type == "mri") && !table.given("dt") && !table.failed("dt"))
+        table.problem("dt", fmt::format("missing, must be a number > 0 s: `{}` takes fixed steps", out.type));
     if (out.type == "cvode" && out.functional) idle_solver("iteration", "iteration = \"functional\"");
     if (out.type == "arkode" && is_explicit_table(out.table))
         idle_solver("table", fmt::format("table = \"{}\"", out.table));
@@ -168,7 +170,7 @@ const Section<IntegratorOptions>& integrator_section() {
              {.only_for = {{"type", {"quasi_static"}}},
               .meaning = "pcg and gmres with the diagonal as preconditioner: no matrix is kept, products with it are "
                          "differences of forces, good to seven digits or so"})},
-        refuse_idle_keys,
+        check_integrator,
         true};
     return section;
 }

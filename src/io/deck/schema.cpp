@@ -46,6 +46,11 @@ void TableReader::refuse_unknown(const std::vector<std::string_view>& known) {
         if (const std::string_view meant = nearest(name, known); !meant.empty() && !given(meant)) mark_failed(meant);
         std::string hint = suggestion(name, known);
         if (const std::string home = home_of(name); !home.empty()) hint = fmt::format(", it belongs to {}", home);
+        if (!path_.empty() && is_key_of_deck(name))
+            hint = fmt::format(
+                ", `{}` belongs to the deck itself: what stands below a [table] is part of it, so write it above all "
+                "tables, or as a [table] of its own",
+                name);
         if (hint.empty()) hint = ", allowed: " + quoted_list(known, '`');
         findings_.add(position_of(key.source(), position_of(node.source(), where_)),
                       fmt::format("key `{}`: unknown{}", path_of(name), hint));

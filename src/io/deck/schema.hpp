@@ -157,5 +157,7 @@ void read_section(const Section<T>& section, TableReader& table, T& out) {
 
 /// Where a key called `name` lives in the deck, for suggestions: "[run]"; empty if nowhere. Defined with the sections.
 std::string home_of(std::string_view name);
+/// Whether the deck itself has a key of this name: "run".
+bool is_key_of_deck(std::string_view name);
 
 }  // namespace gneiss::deck

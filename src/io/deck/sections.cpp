@@ -32,7 +32,7 @@ std::string why_missing(const std::filesystem::path& file) {
     namespace fs = std::filesystem;
     std::error_code error;
     if (fs::is_regular_file(file, error)) return {};
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
     if (!fs::is_directory(folder, error)) return fmt::format("there is no folder {}", folder.string());
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder, error))

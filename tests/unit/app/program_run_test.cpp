@@ -155,7 +155,7 @@ TEST_F(ProgramRun, SameFolder_Twice_NothingOfTheFirstRunStays) {
     const std::string probes = contents("results/case/probes.csv");
     ASSERT_EQ(gneiss({"run", "case.toml"}).code, 0);
     EXPECT_EQ(contents("results/case/probes.csv"), probes);
-    ASSERT_EQ(gneiss({"run", "case.toml", "--set", "output.probes=[]", "output.fields=0"}).code, 0);
+    ASSERT_EQ(gneiss({"run", "case.toml", "--overwrite", "--set", "output.probes=[]", "output.fields=0"}).code, 0);
     EXPECT_FALSE(exists("results/case/probes.csv"));
     EXPECT_FALSE(exists("results/case/fields_000002.vtu"));
 }
