@@ -290,6 +290,8 @@ Case build_case(CaseOptions options) {
         built.system->add_event(std::move(touches));
     }
     built.layout = layout_fingerprint(*built.mesh, *built.system);
+    for (const Constraint& constraint : built.system->constraints())
+        built.held.push_back(static_cast<std::int64_t>(constraint.dof));
     built.reactions = ReactionTable(*built.mesh, options.boundaries, built.system->constraints());
     built.options = std::move(options);
     return built;

@@ -21,9 +21,10 @@ struct Case {
     std::unique_ptr<InnerSides> inner;                      ///< of the mesh
     std::vector<std::string> warnings;                      ///< "mesh: …"
     std::unique_ptr<SolidSystem> system;
-    Cracking* cracking = nullptr;  ///< one of the system's events; null: nothing cracks
-    Touches* touches = nullptr;    ///< one of the system's events; null: nobody asks when bodies touch
-    std::string layout;            ///< fingerprint of mesh and blocks at the start: what z and history are ordered by
+    Cracking* cracking = nullptr;    ///< one of the system's events; null: nothing cracks
+    Touches* touches = nullptr;      ///< one of the system's events; null: nobody asks when bodies touch
+    std::vector<std::int64_t> held;  ///< degrees of freedom of the mesh at the start whose motion is given, ascending
+    std::string layout;              ///< fingerprint of mesh and blocks at the start: what z and history are ordered by
     std::unique_ptr<Integrator> integrator;
     ProbeTable probes;
     ReactionTable reactions;

@@ -10,6 +10,7 @@
 
 #include "app/build_case.hpp"
 #include "app/make_integrator.hpp"
+#include "app/plausibility.hpp"
 #include "app/schedule.hpp"
 #include "app/threads.hpp"
 #include "io/deck/deck.hpp"
@@ -20,6 +21,8 @@
 
 namespace gneiss {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The names of one map that another one has not.
 template <class Map, class Other>
@@ -112,7 +115,8 @@ void print_cost_of_statics(const Case& built, std::ostream& out) {
 void check_case(const std::filesystem::path& deck, const std::vector<std::string>& set, int threads,
                 std::ostream& out) {
     const std::string too_many_threads = use_threads(threads);
-    Case built = build_case(read_deck(deck, set));
+    DeckNotes notes;
+    Case built = build_case(read_deck(deck, set, &notes));
     Measured measured;
     if (built.integrator->is_static()) {
         State state = built.system->initial_state();
@@ -123,7 +127,10 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     const auto line = [&out](const char* what, const std::string& value) { print_line(out, what, value); };
     line("deck", deck.string() + ": no errors");
     line("warning", too_many_threads);
+    for (const std::string& note : notes.on_case) line("warning", note);
     for (const std::string& warning : built.warnings) line("warning", warning);
+    const Plausibility looked = plausibility(built, fs::path("results") / deck.stem());
+    for (const std::string& warning : looked.warnings) line("warning", warning);
 
     const Mesh& mesh = *built.mesh;
     const MeshSize size = mesh_size(mesh);
@@ -140,6 +147,7 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     line("points", names_of(mesh.node_sets, lines));
     for (const auto& quantity : built.system->models().quantities(built.system->initial_state()))
         line("at the start", fmt::format("{} {:.6g} {}", quantity.name, quantity.value, quantity.unit));
+    for (const auto& [name, value] : looked.facts) line(name.c_str(), value);
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
     if (built.integrator->is_static())

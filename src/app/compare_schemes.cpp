@@ -27,6 +27,7 @@
 #include "io/output/atomic_file.hpp"
 #include "io/output/csv_series.hpp"
 #include "io/output/fingerprint.hpp"
+#include "io/output/folder_lock.hpp"
 #include "io/output/stop_request.hpp"
 
 namespace gneiss {
@@ -141,6 +142,7 @@ public:
 
 private:
     void check_schemes() const;
+    void keep_other_comparison() const;
     ComparedRun carry_out_one(std::size_t number);
     std::string why_refused(const fs::path& deck) const;
     void measure(std::vector<ComparedRun>& runs) const;
@@ -166,6 +168,19 @@ void Comparison::check_schemes() const {
                                     problem.message});
         }
     if (!problems.empty()) throw InputError(problems);
+}
+
+/// Schemes may change: runs that are there already are not repeated.
+/// @throws InputError if the folder holds a comparison on another problem
+void Comparison::keep_other_comparison() const {
+    const fs::path file = out_ / "compare.json";
+    if (arguments_.overwrite || !fs::exists(file)) return;
+    const auto before = nlohmann::json::parse(read_file(file), nullptr, false);
+    const std::string own = fingerprint_text(decks_.problem);
+    if (!before.is_object() || before.value("problem_fingerprint", own) == own) return;
+    throw InputError(out_.string(),
+                     "holds a comparison on another problem, or on this one before its deck was changed elsewhere than "
+                     "in [compare]: --overwrite replaces it, --out takes another folder");
 }
 
 /// What the program says of a deck that it does not run, in one line.
@@ -297,7 +312,10 @@ void Comparison::write(const std::vector<ComparedRun>& runs) const {
         }
         rows.push_back(std::move(row));
     }
-    const nlohmann::ordered_json json{{"title", decks_.options.title}, {"reference", reference_text()}, {"runs", rows}};
+    const nlohmann::ordered_json json{{"title", decks_.options.title},
+                                      {"problem_fingerprint", fingerprint_text(decks_.problem)},
+                                      {"reference", reference_text()},
+                                      {"runs", rows}};
     write_atomically(out_ / "compare.csv", csv);
     write_atomically(out_ / "compare.json",
                      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
@@ -305,6 +323,11 @@ void Comparison::write(const std::vector<ComparedRun>& runs) const {
 }
 
 int Comparison::carry_out_all() {
+    make_folder(out_);
+    const FolderLock lock(out_, "gneiss compare " + fs::absolute(arguments_.deck).string());
+    keep_other_comparison();
+    if (!arguments_.quiet)
+        for (const std::string& note : decks_.notes) fmt::print(stderr, "gneiss: warning: {}\n", note);
     std::vector<ComparedRun> runs;
     for (std::size_t number = 0; number < decks_.runs.size() && !stop_.requested(); ++number) {
         runs.push_back(carry_out_one(number));

@@ -11,7 +11,9 @@ namespace gneiss {
 /// that says why.
 /// @param program  path of this program
 /// @return exit code: 0 if every run came to its end, 3 if one did not, 130 or 143 interrupted
-/// @throws InputError if the deck has mistakes or nothing to compare
+/// @throws InputError if the deck has mistakes or nothing to compare, if `out` is in use, or if it holds a comparison
+/// on
+///         another problem and `overwrite` is not set
 /// @throws RecoverableError if the reference failed: it comes first, and nothing else has run then
 /// @throws IoError
 int compare_schemes(const RunArguments& arguments, const std::filesystem::path& program);

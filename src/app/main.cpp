@@ -61,6 +61,10 @@ void add_case_options(CLI::App& command, RunArguments& run) {
         ->type_name("N");
 }
 
+void add_overwrite_option(CLI::App& command, RunArguments& run) {
+    command.add_flag("--overwrite", run.overwrite, "replace finished results of another deck in the folder");
+}
+
 void add_results_options(CLI::App& command, RunArguments& run, const char* restart) {
     command.add_option("--out", run.out, "folder of the results [results/CASE]")->type_name("DIR");
     command.add_option("--restart", run.restart, restart)->type_name("FILE");
@@ -107,6 +111,14 @@ MeshProcess mesh_process(bool quiet) {
     return process;
 }
 
+/// An override that is none, "key" of `--set key value`; empty if there is none.
+std::string broken_override(int argc, char** argv) {
+    for (int i = 1; i + 1 < argc; ++i)
+        if (std::string_view(argv[i]) == "--set" && std::string_view(argv[i + 1]).find('=') == std::string_view::npos)
+            return argv[i + 1];
+    return {};
+}
+
 /// @return exit code
 int carry_out(const CLI::App& app, const Arguments& arguments, char** argv) {
     const RunArguments& run = arguments.run;
@@ -141,11 +153,13 @@ int main(int argc, char** argv) {
     CLI::App* run_command = app.add_subcommand("run", "run a case; results go to a folder of their own");
     add_case_options(*run_command, run);
     add_results_options(*run_command, run, "go on from a checkpoint.h5");
+    add_overwrite_option(*run_command, run);
     run_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* compare_command =
         app.add_subcommand("compare", "run a case under the schemes of its [compare]; table, work and precision");
     add_case_options(*compare_command, run);
     compare_command->add_option("--out", run.out, "folder of the results [results/CASE-compare]")->type_name("DIR");
+    add_overwrite_option(*compare_command, run);
     compare_command->add_flag("--quiet", run.quiet, "print nothing but errors");
     CLI::App* check_command =
         app.add_subcommand("check", "check a deck; print sizes, stable step, expected time and memory");
@@ -164,7 +178,12 @@ int main(int argc, char** argv) {
         app.exit(help);
         return argc > 1 ? exit_code::done : exit_code::bad_input;
     } catch (const CLI::ExtrasError& error) {
-        if (!app.get_subcommands().empty()) return app.exit(error), exit_code::bad_input;
+        if (!app.get_subcommands().empty()) {
+            if (const std::string key = broken_override(argc, argv); !key.empty())
+                std::cerr << fmt::format("gneiss: --set {}: must be key=value without blanks, as in run.t_end=0.01\n",
+                                         key);
+            return app.exit(error), exit_code::bad_input;
+        }
         std::cerr << fmt::format("gneiss: no command `{}`{}\n", argv[1],
                                  suggestion(argv[1], {"run", "compare", "check", "matrices", "list"}));
         return exit_code::bad_input;

@@ -116,27 +116,6 @@ std::unique_ptr<Integrator> make_ida(const IntegratorOptions& o) {
     return std::make_unique<Ida>(options);
 }
 
-/// Keys that a deck's own conditions cannot tell to be idle: given, if they differ from their default.
-void refuse_idle_keys(const IntegratorOptions& o) {
-    const IntegratorOptions usual;
-    std::vector<Problem> problems;
-    const auto idle = [&](bool given, const char* key, const std::string& reason) {
-        if (given) problems.push_back({std::string("integrator.") + key, "has no effect: " + reason});
-    };
-    if (is_alpha(o) && !o.adaptive) {
-        const std::string fixed = "steps are fixed without `adaptive = true`";
-        idle(o.rtol != usual.rtol, "rtol", fixed);
-        idle(o.displacement_scale != usual.displacement_scale, "displacement_scale", fixed);
-        idle(o.longest != usual.longest, "longest", fixed);
-    }
-    const auto idle_solver = [&](const std::string& reason) {
-        idle(o.solver != usual.solver, "solver", reason + ", no linear systems are solved");
-    };
-    if (o.type == "cvode" && o.functional) idle_solver("with iteration = \"functional\"");
-    if (o.type == "arkode" && Arkode::is_explicit(o.table)) idle_solver(fmt::format("with table = \"{}\"", o.table));
-    if (!problems.empty()) throw InputError(problems);
-}
-
 }  // namespace
 
 void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system) {
@@ -147,7 +126,6 @@ void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system)
 }
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
-    refuse_idle_keys(o);
     if (o.type == "central_difference") return std::make_unique<CentralDifference>(stable_step(o), o.levels);
     if (o.type == "verlet") return make_verlet(o);
     if (o.type == "noh_bathe") return std::make_unique<NohBathe>(NohBathe::Options{stable_step(o), o.split});

@@ -1,6 +1,9 @@
 #include "app/run_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -10,6 +13,7 @@
 #include "app/crack_frames.hpp"
 #include "app/field_frames.hpp"
 #include "app/make_integrator.hpp"
+#include "app/plausibility.hpp"
 #include "app/run_summary.hpp"
 #include "app/schedule.hpp"
 #include "app/state_series.hpp"
@@ -19,7 +23,9 @@
 #include "integrators/mass_and_damping.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/atomic_file.hpp"
+#include "io/output/checkpoint.hpp"
 #include "io/output/fingerprint.hpp"
+#include "io/output/folder_lock.hpp"
 #include "io/output/progress.hpp"
 #include "io/output/run_log.hpp"
 #include "io/output/stop_request.hpp"
@@ -44,6 +50,24 @@ std::string deck_text(const RunArguments& arguments) {
     return text;
 }
 
+/// @param own  fingerprints of the decks whose results may go
+/// @throws InputError if the folder holds a finished run of any other deck
+void keep_finished_run(const fs::path& folder, const std::vector<std::string>& own) {
+    const fs::path file = folder / "summary.json";
+    if (!fs::exists(file)) return;
+    const auto summary = nlohmann::json::parse(read_file(file), nullptr, false);
+    if (!summary.is_object() || summary.value("status", "") != name_of(RunStatus::done)) return;
+    if (std::ranges::find(own, summary.value("deck_fingerprint", "")) != own.end()) return;
+    throw InputError(
+        folder.string(),
+        fmt::format("holds a finished run of another deck, or of this one before it was changed ({}{}): "
+                    "--overwrite replaces it, --out takes another folder",
+                    summary.value("deck", "unknown"),
+                    summary.contains("overrides")
+                        ? fmt::format(" --set {}", fmt::join(summary["overrides"].get<std::vector<std::string>>(), " "))
+                        : ""));
+}
+
 /// A run under way: what it computes, and what it writes.
 class Run {
 public:
@@ -51,6 +75,7 @@ public:
     int march();
 
 private:
+    void take_folder();
     void load_restart();
     void open_results();
     EnergyLedger ledger(const State& state) const;
@@ -59,6 +84,7 @@ private:
     void judge_balance(double t, const EnergyLedger& energies);
     void begin();
     void rows_within(const StepReport& step);
+    void warn(const std::string& warning);
     bool after_step(const StepReport& step);
     bool within_step(const StepProgress& progress);
     template <class Body>
@@ -85,8 +111,11 @@ private:
     std::string deck_text_;
     Case case_;
     fs::path out_;
+    std::optional<FolderLock> lock_;  ///< on it
     std::string fingerprint_;
     std::shared_ptr<spdlog::logger> log_;
+    std::vector<std::string> warnings_;  ///< given so far, each once, those of the balance apart
+    Plausibility looked_;
     State state_;
     RunProgress progress_;
     std::size_t first_step_ = 0;  ///< of this part of the run
@@ -99,7 +128,7 @@ private:
     bool unbalanced_ = false;           ///< more energy has come from nothing than run.most_energy_gained lets pass
     std::optional<double> last_sound_;  ///< time of the last checkpoint with a sound balance, s
     bool last_sound_is_last_ = false;   ///< it is checkpoint.h5, not last_sound.h5
-    std::vector<std::string> warnings_;
+    std::string balance_warning_;       ///< the last one of the balance; empty: there is none
     bool resumed_ = false, begun_ = false;
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
@@ -114,17 +143,22 @@ private:
 
 Run::Run(const RunArguments& arguments) : arguments_(arguments) {
     const std::string too_many_threads = use_threads(arguments.threads);
-    CaseOptions options = read_deck(arguments.deck, arguments.set);
+    DeckNotes notes;
+    CaseOptions options = read_deck(arguments.deck, arguments.set, &notes);
     deck_text_ = deck_text(arguments);
     fingerprint_ = fingerprint_text(deck_text_);
+    out_ = arguments_.out.empty() ? fs::path("results") / arguments_.deck.stem() : arguments_.out;
+    if (fs::exists(out_)) take_folder();  // before minutes go into a mesh
     case_ = build_case(std::move(options));
+    case_.warnings.insert(case_.warnings.begin(), notes.on_case.begin(), notes.on_case.end());
     check_linear_solver(case_.options.integrator, *case_.system);
+    looked_ = plausibility(case_, out_);
     schedule_.emplace(case_.options, case_.integrator->interpolates());
     balance_watch_.emplace(case_.options, case_.integrator->is_static());
     state_ = case_.system->initial_state();
     if (arguments.restart) load_restart();
     open_results();
-    if (!too_many_threads.empty()) log_->warn("{}", too_many_threads);
+    if (!too_many_threads.empty()) warn(too_many_threads);
     first_step_ = progress_.step;
     bar_.emplace(ProgressOptions{.quiet = arguments.quiet, .t_start = state_.t});
     setup_time_ = seconds_since(started_);
@@ -143,9 +177,17 @@ void Run::load_restart() {
                                      state_.t, t_end));
 }
 
-void Run::open_results() {
-    out_ = arguments_.out.empty() ? fs::path("results") / arguments_.deck.stem() : arguments_.out;
+void Run::take_folder() {
     make_folder(out_);
+    lock_.emplace(out_, "gneiss run " + fs::absolute(arguments_.deck).string());
+    if (arguments_.overwrite) return;
+    std::vector<std::string> own{fingerprint_};
+    if (arguments_.restart) own.push_back(Checkpoint::load(*arguments_.restart).deck_fingerprint());
+    keep_finished_run(out_, own);
+}
+
+void Run::open_results() {
+    if (!lock_) take_folder();
     // What an earlier run has left would pass for a result of this one.
     if (!resumed_)
         for (const char* name : {"checkpoint.h5", "last_sound.h5", "probes.csv", "reactions.csv", "load_steps.csv",
@@ -157,9 +199,12 @@ void Run::open_results() {
     const MeshSize size = mesh_size(*case_.mesh);
     log_->info("mesh: {} elements, {} nodes, edges {:.4g} to {:.4g} m", size.n_elements, size.n_nodes,
                size.smallest_edge, size.largest_edge);
-    for (const std::string& warning : case_.warnings) log_->warn("{}", warning);
+    for (const auto& [name, value] : looked_.facts) log_->info("{}: {}", name, value);
+    for (const std::string& warning : case_.warnings) warn(warning);
+    for (const std::string& warning : looked_.warnings) warn(warning);
     if (resumed_) log_->info("restart: {}, t = {:.9g}", arguments_.restart->string(), state_.t);
-    if (!other_deck_.empty()) log_->warn("restart: the checkpoint was written under another deck ({})", other_deck_);
+    if (!other_deck_.empty())
+        warn(fmt::format("restart: the checkpoint was written under another deck ({})", other_deck_));
 
     write_atomically(out_ / "deck.toml", deck_text_);
     const std::optional<double> restart_time = resumed_ ? std::optional(state_.t) : std::nullopt;
@@ -220,9 +265,9 @@ void Run::judge_balance(double t, const EnergyLedger& energies) {
     BalanceRecord& record = progress_.balance;
     balance_watch_->look(t, energies, record);
     balance_error_ = energies.balance_error();
-    if (warnings_.empty() && balance_watch_->to_be_warned_of(t, record)) {
-        warnings_.push_back(balance_watch_->text(t, record));
-        log_->warn("{}", warnings_.back());
+    if (balance_warning_.empty() && balance_watch_->to_be_warned_of(t, record)) {
+        balance_warning_ = balance_watch_->text(t, record);
+        log_->warn("{}", balance_warning_);
     }
     unbalanced_ = unbalanced_ || balance_watch_->to_be_ended(t, record);
 }
@@ -248,6 +293,12 @@ void Run::write_checkpoint() {
     if (sound) last_sound_ = state_.t;
 }
 
+/// The one way of a warning: to stderr, run.log and, once, summary.json.
+void Run::warn(const std::string& warning) {
+    log_->warn("{}", warning);
+    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(warning);
+}
+
 bool Run::after_step(const StepReport& step) {
     if (progress_.step == first_step_) log_->info("step: t = {:.9g}, dt = {:.6g}", step.t, step.dt);
     progress_.step += step.n_steps;
@@ -255,7 +306,7 @@ bool Run::after_step(const StepReport& step) {
     n_force_ += step.n_force;
     last_dt_ = step.dt;
     t_looked_at_ = step.t;
-    if (!step.warning.empty()) log_->warn("{}", step.warning);
+    if (!step.warning.empty()) warn(step.warning);
     if (steps_file_) steps_file_->row(step_row(step), {step.rejected});
     if (schedule_->row_due(step) && !unbalanced_)
         write_rows(state_, progress_.step, step.dt, case_.integrator->reactions());
@@ -292,9 +343,11 @@ void Run::write_summary_file(RunStatus status, const std::string& message) {
     RunSummary summary =
         summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
                   {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, setup_time_,
-                   seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance), warnings_});
+                   seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance)});
     summary.status = status;
     summary.message = message;
+    summary.warnings = warnings_;
+    if (!balance_warning_.empty()) summary.warnings.insert(summary.warnings.begin(), balance_warning_);
     summary.deck_fingerprint = fingerprint_;
     write_summary(out_ / "summary.json", summary);
 }
@@ -304,8 +357,8 @@ int Run::end(RunStatus status, const std::string& message, int code) {
     if (begun_) write_checkpoint();
     if (BalanceWatch::largest_error(progress_.balance) >= BalanceWatch::doubtful) {
         const std::string warning = balance_watch_->text(state_.t, progress_.balance);
-        if (warnings_.empty()) log_->warn("{}", warning);
-        warnings_ = {warning};
+        if (balance_warning_.empty()) log_->warn("{}", warning);
+        balance_warning_ = warning;
     }
     write_summary_file(status, message);
     balance_error_ = ledger(state_).balance_error();
@@ -327,13 +380,14 @@ int Run::end_unbalanced() {
                                          *last_sound_, sound, now)
                            : fmt::format("no sound state was saved (`run.checkpoint`), this one is in {}", now);
     log_->error("{}", message);
-    warnings_ = {balance_watch_->text(t, progress_.balance)};
+    balance_warning_ = balance_watch_->text(t, progress_.balance);
     write_frame();
     return end(RunStatus::failed, message, exit_code::failed);
 }
 
 int Run::end_failed(const std::exception& error) {
     std::string message = error.what();
+    if (!looked_.overload.empty()) message += "; likely cause: " + looked_.overload;
     if (begun_)
         message +=
             fmt::format("; the last good state, t = {:.9g} s, is in {}", state_.t, (out_ / "checkpoint.h5").string());

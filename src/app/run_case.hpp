@@ -19,11 +19,13 @@ struct RunArguments {
     std::vector<std::string> set;
     int threads = 0;  ///< 0: as many as there are cores
     std::optional<std::filesystem::path> restart;
+    bool overwrite = false;  ///< results of a finished run of another deck
     bool quiet = false;
 };
 
 /// Results stand in `out`, however the run ends: summary.json says how. Of an older run in the same folder nothing
-/// stays but what a restart goes on with.
+/// stays but what a restart goes on with; a folder in which a run is under way is refused, and so is one that holds a
+/// finished run of another deck, unless `overwrite` is set.
 /// @return exit code: 0 done, 3 failed, 130 or 143 interrupted
 /// @throws InputError before the first step
 /// @throws IoError if results cannot be written

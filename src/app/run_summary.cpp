@@ -56,7 +56,6 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
     summary.groups["energies_J"]["initial"] = now.energies.initial;
     summary.groups["balance_error"] = now.energies.balance_error();
     summary.groups["largest_balance_error"] = now.largest_balance_error;
-    if (!now.warnings.empty()) summary.groups["warnings"] = now.warnings;
     return summary;
 }
 

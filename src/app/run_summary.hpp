@@ -19,7 +19,6 @@ struct RunNumbers {
     double setup_time = 0, wall_time = 0;     ///< s
     EnergyLedger energies;
     double largest_balance_error = 0;
-    std::vector<std::string> warnings;  ///< of the run, not of the deck
 };
 
 /// @param deck  path of the deck; @param set  overrides laid over it

@@ -27,7 +27,7 @@ ElementForces::ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, 
       place_(mesh.n_elements()),
       n_nodes_(mesh.n_nodes()),
       far_(mesh.n_nodes() > many_nodes),
-      labels_(mesh.element_labels) {
+      mesh_(mesh) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const ElementBlock& block = *blocks_[b];
         z_offset_.push_back(z_offset_.back() + block.n_internal());
@@ -341,10 +341,22 @@ void ElementForces::add_shared(std::span<double> f) const {
     });
 }
 
+std::string ElementForces::description(std::size_t block, std::ptrdiff_t local) const {
+    const auto e = static_cast<std::size_t>(blocks_[block]->element(static_cast<std::size_t>(local)));
+    Vec2<double> centre{0, 0};
+    for (int corner = 0; corner < 3; ++corner) {
+        const int node = corner * mesh_.nodes_per_element() / 3;  // every second one of a composite
+        const auto [x, y] = mesh_.nodes[static_cast<std::size_t>(mesh_.element(e)[node])];
+        centre += Vec2<double>{x / 3, y / 3};
+    }
+    return fmt::format("element {} at ({:.4g}, {:.4g}) m of region `{}`", mesh_.element_labels[e], centre.x, centre.y,
+                       mesh_.region_names[static_cast<std::size_t>(mesh_.region[e])]);
+}
+
 void ElementForces::throw_inverted(std::size_t block, std::ptrdiff_t local, const ElementBlock::Evaluation& at,
                                    double t) const {
     const auto which = static_cast<std::size_t>(local);
-    throw RecoverableError(fmt::format("element {} is inverted at t = {:.9g} s: {}", label(block, local), t,
+    throw RecoverableError(fmt::format("{} is inverted at t = {:.9g} s: {}", description(block, local), t,
                                        blocks_[block]->describe_inversion(which, at)));
 }
 

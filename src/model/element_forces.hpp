@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ namespace gneiss {
 class ElementForces {
 public:
     /// @param blocks  at least one; every node of the mesh belongs to an element
+    /// @param mesh    has to outlive this
     ElementForces(std::vector<std::unique_ptr<ElementBlock>> blocks, const Mesh& mesh);
 
     std::span<const std::unique_ptr<ElementBlock>> blocks() const { return blocks_; }
@@ -59,10 +61,8 @@ public:
         return std::span(chunk_nodes_)
             .subspan(chunks_[chunk].first_node, chunks_[chunk].last_node - chunks_[chunk].first_node);
     }
-    /// What the mesh calls an element.
-    std::int64_t label(std::size_t block, std::ptrdiff_t local) const {
-        return labels_[static_cast<std::size_t>(blocks_[block]->element(static_cast<std::size_t>(local)))];
-    }
+    /// An element for messages: what the mesh calls it, where it is, its region.
+    std::string description(std::size_t block, std::ptrdiff_t local) const;
 
     /// What goes with the elements, chunk by chunk.
     struct Company {
@@ -118,8 +118,8 @@ private:
     std::vector<Place> place_;  ///< of each element of the mesh
     std::vector<Chunk> chunks_;
     std::size_t n_nodes_;
-    bool far_;                          ///< nodal values come from beyond the second-level cache
-    std::vector<std::int64_t> labels_;  ///< of the mesh's elements, for messages
+    bool far_;  ///< nodal values come from beyond the second-level cache
+    const Mesh& mesh_;
 
     std::vector<std::vector<std::int32_t>> nodes_of_chunk_;  ///< ascending
     std::vector<std::int32_t> chunk_nodes_;                  ///< of each chunk in the order of its local numbers

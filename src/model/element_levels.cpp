@@ -234,8 +234,8 @@ void ElementLevels::force(int number, const State& accepted, const Trial& trial,
     }
     for (std::size_t i = 0; i < level.pieces.size(); ++i)
         if (inverted_[i] != ElementBlock::none)
-            throw RecoverableError(fmt::format("element {} is inverted in a local step at t = {:.9g} s",
-                                               elements_.label(level.pieces[i].block, inverted_[i]), trial.t));
+            throw RecoverableError(fmt::format("{} is inverted in a local step at t = {:.9g} s",
+                                               elements_.description(level.pieces[i].block, inverted_[i]), trial.t));
     for (std::size_t k = 0; k < level.shared.size(); ++k) {
         double x = 0, y = 0;
         for (std::size_t slot = level.slot_starts[k]; slot < level.slot_starts[k + 1]; ++slot) {

@@ -95,7 +95,7 @@ def run(program: str, mesh: str, modes: Modes, keys: dict[str, Any], t_end: floa
         what["contact"] = {"method": "potential", "friction": 0.0}  # there has to be some; nothing touches
     path = folder / "run.toml"
     write_deck(what, path)
-    ended = subprocess.run([program, "run", str(path), "--out", str(folder / "run"), "--threads", "1", "--quiet"],
+    ended = subprocess.run([program, "run", str(path), "--overwrite", "--out", str(folder / "run"), "--threads", "1", "--quiet"],
                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if ended.returncode != 0:
         return ended.stderr.strip().splitlines()[-1] if ended.stderr.strip() else f"exit code {ended.returncode}"

@@ -1,6 +1,7 @@
 #pragma once
 // The words a deck may use where one of several things is chosen, each with its meaning in one line.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
@@ -170,6 +171,12 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"ark548l2sa_8_4_5", "ark548l2sa_8_4_5", "additive, order 5"},
     {"ark548l2sab_8_4_5", "ark548l2sab_8_4_5", "additive, order 5"},
 }};
+
+/// Whether a table of Runge-Kutta needs no linear systems.
+inline bool is_explicit_table(std::string_view name) {
+    const auto found = std::ranges::find(runge_kutta_tables, name, &Choice<std::string>::name);
+    return found != runge_kutta_tables.end() && found->meaning.starts_with("explicit");
+}
 
 inline const std::array<Choice<std::string>, 3> multirate_tables{{
     {"mis_kw3", "mis_kw3", "order 3 (Knoth and Wolke)"},

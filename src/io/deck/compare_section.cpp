@@ -1,5 +1,7 @@
 // The table [compare]: schemes with their settings, and what they are measured against.
 
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "io/deck/keys.hpp"
@@ -23,13 +25,21 @@ std::string inline_toml(const toml::table& table) {
     return "{ " + text + " }";
 }
 
+using Keys = std::set<std::string, std::less<>>;
+
 /// Reads one [integrator] table into a variant.
-bool read_variant(const Value& value, const toml::table& content, std::string setting, SchemeVariant& out) {
-    out.setting = std::move(setting);
-    out.toml = inline_toml(content);
+/// @param varied  the key that has one of several values here; empty: none has
+/// @return keys that were left out
+Keys read_variant(const Value& value, toml::table content, std::string_view varied, std::string setting,
+                  SchemeVariant& out) {
     TableReader table(value.findings(), content, value.where(), value.key());
+    if (!varied.empty()) table.mark_swapped(varied);
     read_section(integrator_section(), table, out.integrator);
-    return true;
+    const Keys left_out = table.left_out();
+    out.setting = std::move(setting);
+    for (const std::string& key : left_out) content.erase(key);
+    out.toml = inline_toml(content);
+    return left_out;
 }
 
 const toml::table* table_of(const Value& value) {
@@ -56,18 +66,28 @@ bool read_variants(const Value& value, TableReader&, SchemeOptions& out) {
         list = array;
         varied = key.str();
     }
-    if (list == nullptr) return read_variant(value, *content, "", out.variants.emplace_back());
+    if (list == nullptr) {
+        read_variant(value, *content, "", "", out.variants.emplace_back());
+        return true;
+    }
+    std::map<std::string, std::size_t, std::less<>> times_left_out;
     for (const toml::node& element : *list) {
         toml::table one = *content;
         element.visit([&](const auto& any) { one.insert_or_assign(varied, any); });
-        read_variant(value, one, varied + " = " + value_text(element), out.variants.emplace_back());
+        for (const std::string& key :
+             read_variant(value, one, varied, varied + " = " + value_text(element), out.variants.emplace_back()))
+            ++times_left_out[key];
     }
+    for (const auto& [key, times] : times_left_out)
+        if (times == list->size()) value.problem(fmt::format("`{}` fits none of the values of `{}`", key, varied));
     return true;
 }
 
 bool read_reference(const Value& value, TableReader&, CompareOptions& out) {
     const toml::table* content = table_of(value);
-    return content != nullptr && read_variant(value, *content, "", out.reference.emplace());
+    if (content == nullptr) return false;
+    read_variant(value, *content, "", "", out.reference.emplace());
+    return true;
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ const Section<ContactOptions>& contact_section() {
                  .only_for = on,
                  .meaning = "in shortest edges of the boundary: pairs are searched again once a node has moved half of "
                             "it"})},
-        check_contact};
+        check_contact,
+        true};
     return section;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "io/deck/overrides.hpp"
@@ -12,6 +13,23 @@ namespace gneiss {
 
 namespace {
 
+std::string line_of(std::string_view text, unsigned number) {
+    std::istringstream stream{std::string(text)};
+    std::string line;
+    for (unsigned i = 0; i < number && std::getline(stream, line);) ++i;
+    return line;
+}
+
+/// What people mean who write a line that is no TOML.
+std::string hint_to_syntax(const std::string& line) {
+    static const std::regex comma(R"(=\s*[+-]?\d+,\d)"), word(R"(=\s*(True|False|TRUE|FALSE|yes|no|on|off)\b)"),
+        colon(R"(^\s*\w+\s*:)");
+    if (std::regex_search(line, comma)) return "; decimals are written with a point, 0.001";
+    if (std::regex_search(line, word)) return "; TOML has `true` and `false`";
+    if (std::regex_search(line, colon)) return "; a key and its value are written `key = value`";
+    return "";
+}
+
 /// The deck as TOML, with what is set laid over it.
 toml::table parse_document(std::string_view text, const std::string& name, const std::vector<std::string>& set,
                            deck::Findings& findings) {
@@ -19,8 +37,9 @@ toml::table parse_document(std::string_view text, const std::string& name, const
     try {
         document = toml::parse(text, name);
     } catch (const toml::parse_error& error) {
-        throw InputError(deck::position_of(error.source(), {name, 1, 1}).text(),
-                         fmt::format("no valid TOML: {}", error.description()));
+        const deck::Position place = deck::position_of(error.source(), {name, 1, 1});
+        throw InputError(place.text(), fmt::format("no valid TOML: {}{}", error.description(),
+                                                   hint_to_syntax(line_of(text, place.line))));
     }
     for (const std::string& argument : set) deck::apply_override(document, argument, findings);
     return document;
@@ -37,25 +56,30 @@ std::string text_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set) {
+CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set,
+                       const std::optional<std::filesystem::path>& folder, DeckNotes* notes) {
     deck::Findings findings;
+    findings.folder = folder;
     const toml::table document = parse_document(text, name, set, findings);
     CaseOptions options;
     deck::TableReader table(findings, document, deck::Position{name, 1, 1}, "");
     deck::read_section(deck::case_section(), table, options);
     findings.throw_if_any();
+    if (notes != nullptr) *notes = {findings.notes(false), findings.notes(true)};
     return options;
 }
 
-CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    CaseOptions options = parse_deck(text_of(file), file.string(), set);
+CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set, DeckNotes* notes) {
+    CaseOptions options = parse_deck(text_of(file), file.string(), set, file.parent_path(), notes);
     if (options.mesh.source == MeshOptions::Source::file)
         options.mesh.file = (file.parent_path() / options.mesh.file).string();
     return options;
 }
 
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set) {
-    ComparisonDecks decks{read_deck(file, set), {}};
+    DeckNotes notes;
+    ComparisonDecks decks{read_deck(file, set, &notes), {}, {}, {}};
+    decks.notes = std::move(notes.on_compare);
     if (!decks.options.compare)
         throw InputError(file.string(), "has no table [compare]: schemes to run, and what to measure them against");
     const CompareOptions& compare = *decks.options.compare;
@@ -70,11 +94,16 @@ ComparisonDecks read_comparison(const std::filesystem::path& file, const std::ve
     output.erase("fields");  // so would these
     output.erase("field_times");
     output.insert_or_assign("states", decks.options.run.t_end / compare.samples);
-    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
-        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
+    const auto toml_text = [&document] {
         std::ostringstream text;
         text << toml::toml_formatter(document) << '\n';
-        decks.runs.push_back({scheme, variant.setting, text.str()});
+        return text.str();
+    };
+    document.erase("integrator");
+    decks.problem = toml_text();
+    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
+        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
+        decks.runs.push_back({scheme, variant.setting, toml_text()});
     };
     if (compare.reference) add("reference", *compare.reference);
     for (const SchemeOptions& scheme : compare.schemes)

@@ -2,6 +2,7 @@
 // Reading a deck: TOML text into CaseOptions. docs/deck.md is the reference of its keys.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,15 +11,25 @@
 
 namespace gneiss {
 
+/// What is no mistake of a deck, and yet to be told, each with its place: keys that --set, or a list of values, has
+/// left without meaning.
+struct DeckNotes {
+    std::vector<std::string> on_case, on_compare;
+};
+
 /// Reads and checks a deck. A mesh file named in it is taken relative to the deck's folder.
 /// @param set  "key=value" each, laid over the deck before it is checked: "run.t_end=0.01",
 ///             "material.0.constants.M_v=1e9"; the value is TOML, a bare word is a string
+/// @param[out] notes  if not null
 /// @throws InputError with every problem of the deck, in the order of the file: "case.toml:12:11: key `run.t_end`: …",
 ///         those of `set` after them as "--set key=value: …". A syntax error of TOML comes alone, with its place.
-CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set = {});
+CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::string>& set = {},
+                      DeckNotes* notes = nullptr);
 
 /// The same for text at hand; `name` stands for the file in messages, and a mesh file stays as it is written.
-CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set = {});
+/// @param folder  where the mesh file has to be; none: nobody looks
+CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set = {},
+                       const std::optional<std::filesystem::path>& folder = std::nullopt, DeckNotes* notes = nullptr);
 
 /// The decks of a comparison: the case itself under one scheme after the other.
 struct ComparisonDecks {
@@ -27,8 +38,10 @@ struct ComparisonDecks {
             setting;       ///< SchemeOptions::name, SchemeVariant::setting; of the reference: "reference", ""
         std::string deck;  ///< TOML: without [compare], frames and checkpoints, with states, files by their whole names
     };
-    CaseOptions options;    ///< of the deck itself
-    std::vector<Run> runs;  ///< the reference first, where there is one
+    CaseOptions options;             ///< of the deck itself
+    std::string problem;             ///< TOML: what all runs have in common, their decks without [integrator]
+    std::vector<Run> runs;           ///< the reference first, where there is one
+    std::vector<std::string> notes;  ///< DeckNotes::on_compare
 };
 /// @throws InputError as read_deck does, and if there is nothing to compare
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set = {});

@@ -124,7 +124,8 @@ const Section<FractureOptions>& fracture_section() {
                  .meaning = "scatter of strengths from edge to edge: 10 is 12 %; 0: none"}),
          integer("seed", &F::seed,
                  {.range = at_least(0), .only_for = jointed, .meaning = "another seed, another sample"})},
-        check_fracture};
+        check_fracture,
+        true};
     return section;
 }
 

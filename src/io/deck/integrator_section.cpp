@@ -5,6 +5,41 @@
 #include "io/deck/sections.hpp"
 
 namespace gneiss::deck {
+namespace {
+
+/// Keys that fit the scheme and yet have no effect beside others of its keys, and those that are missing.
+void check_integrator(TableReader& table, IntegratorOptions& out) {
+    using I = IntegratorOptions;
+    const I usual;
+    const auto idle = [&](std::string_view key, auto I::*member, std::vector<std::string_view> deciders,
+                          const std::string& reason) {
+        if (!table.given(key) || table.failed(key) || out.*member == usual.*member) return;
+        deciders.push_back("type");
+        const std::string why = "it has no effect: " + reason;
+        if (!table.leave_out(key, deciders, why)) table.problem(key, why + std::string(swap_way_out));
+        out.*member = usual.*member;
+    };
+    if ((out.type == "generalized_alpha" || out.type == "newmark" || out.type == "hht_alpha") && !out.adaptive) {
+        const std::string fixed = "steps are fixed without `adaptive = true`";
+        idle("rtol", &I::rtol, {"adaptive"}, fixed);
+        idle("displacement_scale", &I::displacement_scale, {"adaptive"}, fixed);
+        idle("longest", &I::longest, {"adaptive"}, fixed);
+    }
+    const auto idle_solver = [&](std::string_view decider, const std::string& with) {
+        const std::string reason = fmt::format("with {}, no linear systems are solved", with);
+        idle("solver", &I::solver, {decider}, reason);
+        idle("preconditioner", &I::preconditioner, {decider, "solver"}, reason);
+        idle("linear_tolerance", &I::linear_tolerance, {decider, "solver"}, reason);
+        idle("most_linear_iterations", &I::most_linear_iterations, {decider, "solver"}, reason);
+    };
+    if ((out.type == "bathe" || out.type == "mri") && !table.given("dt") && !table.failed("dt"))
+        table.problem("dt", fmt::format("missing, must be a number > 0 s: `{}` takes fixed steps", out.type));
+    if (out.type == "cvode" && out.functional) idle_solver("iteration", "iteration = \"functional\"");
+    if (out.type == "arkode" && is_explicit_table(out.table))
+        idle_solver("table", fmt::format("table = \"{}\"", out.table));
+}
+
+}  // namespace
 
 const Section<IntegratorOptions>& integrator_section() {
     using I = IntegratorOptions;
@@ -134,7 +169,9 @@ const Section<IntegratorOptions>& integrator_section() {
              "matrix_free", &I::matrix_free,
              {.only_for = {{"type", {"quasi_static"}}},
               .meaning = "pcg and gmres with the diagonal as preconditioner: no matrix is kept, products with it are "
-                         "differences of forces, good to seven digits or so"})}};
+                         "differences of forces, good to seven digits or so"})},
+        check_integrator,
+        true};
     return section;
 }
 

@@ -239,6 +239,11 @@ Key<T> table(std::string_view name, const Section<T>& (*section)(), const Spec& 
 template <class T, class S>
 Key<T> tables(std::string_view name, std::vector<S> T::*member, const Section<S>& (*section)(), const Spec& spec) {
     return custom<T>(name, "an array of tables", "", spec, [=](const Value& value, TableReader&, T& out) {
+        if (value.node().is_table()) {
+            value.problem(fmt::format("given one table, must be an array of tables: [[{}]], with two brackets each",
+                                      value.key()));
+            return false;
+        }
         const auto values = value.elements(std::nullopt, "tables");
         if (!values) return false;
         bool good = true;

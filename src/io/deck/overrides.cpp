@@ -86,7 +86,7 @@ std::string lay_over(toml::node& target, toml::table& source, const std::string&
 }  // namespace
 
 void apply_override(toml::table& deck, const std::string& argument, Findings& findings) {
-    const std::string place = "--set " + argument;
+    const std::string place = std::string(Position::override_prefix) + argument;
     const std::size_t equals = argument.find('=');
     const std::string key = dotted(trimmed(std::string_view(argument).substr(0, equals)));
     if (equals == std::string::npos || key.empty()) {

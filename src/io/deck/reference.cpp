@@ -125,6 +125,10 @@ std::string home_of(std::string_view name) {
     return home;
 }
 
+bool is_key_of_deck(std::string_view name) {
+    return std::ranges::any_of(case_section().keys, [name](const auto& key) { return key.doc.name == name; });
+}
+
 }  // namespace deck
 
 std::vector<Listing> deck_listings() {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/suggest.hpp"
 
 namespace gneiss::deck {
@@ -44,6 +46,11 @@ void TableReader::refuse_unknown(const std::vector<std::string_view>& known) {
         if (const std::string_view meant = nearest(name, known); !meant.empty() && !given(meant)) mark_failed(meant);
         std::string hint = suggestion(name, known);
         if (const std::string home = home_of(name); !home.empty()) hint = fmt::format(", it belongs to {}", home);
+        if (!path_.empty() && is_key_of_deck(name))
+            hint = fmt::format(
+                ", `{}` belongs to the deck itself: what stands below a [table] is part of it, so write it above all "
+                "tables, or as a [table] of its own",
+                name);
         if (hint.empty()) hint = ", allowed: " + quoted_list(known, '`');
         findings_.add(position_of(key.source(), position_of(node.source(), where_)),
                       fmt::format("key `{}`: unknown{}", path_of(name), hint));
@@ -78,11 +85,36 @@ TableReader::Holds TableReader::any_of(const std::vector<Condition>& conditions)
     return holds;
 }
 
-void TableReader::out_of_place(const KeyDoc& key) const {
+std::string TableReader::why_out_of_place(const KeyDoc& key) const {
     const std::string_view decider = key.only_for.front().key;
     const std::string_view word = chosen(decider);
-    problem(key.name, fmt::format("only for {}, here `{}` is {}", condition_text(key.only_for), decider,
-                                  word.empty() ? "not given" : fmt::format("\"{}\"", word)));
+    return fmt::format("only for {}, here `{}` is {}", condition_text(key.only_for), decider,
+                       word.empty() ? "not given" : fmt::format("\"{}\"", word));
+}
+
+void TableReader::out_of_place(const KeyDoc& key, std::string_view way_out) const {
+    problem(key.name, why_out_of_place(key) + std::string(way_out));
+}
+
+bool TableReader::is_swapped(std::string_view key) const {
+    const toml::node* node = table_.get(key);
+    return swapped_.contains(key) || (node != nullptr && position_of(node->source(), where_).is_override());
+}
+
+bool TableReader::leave_out(std::string_view key, const std::vector<std::string_view>& deciders, std::string_view why) {
+    const bool decided_elsewhere = std::ranges::any_of(
+        deciders, [this](std::string_view decider) { return is_swapped(decider) || left_out_.contains(decider); });
+    if (is_swapped(key) || !decided_elsewhere) return false;
+    const toml::node* node = table_.get(key);
+    findings_.note(position_of(node->source(), where_), path_of(key), fmt::format("left out, {}", why));
+    left_out_.emplace(key);
+    return true;
+}
+
+bool TableReader::leave_out(const KeyDoc& key) {
+    std::vector<std::string_view> deciders;
+    for (const Condition& condition : key.only_for) deciders.push_back(condition.key);
+    return leave_out(key.name, deciders, why_out_of_place(key));
 }
 
 }  // namespace gneiss::deck

@@ -55,7 +55,7 @@ public:
     const Position& where() const { return where_; }
     std::string path_of(std::string_view key) const;
 
-    bool given(std::string_view key) const { return table_.contains(key); }
+    bool given(std::string_view key) const { return table_.contains(key) && !left_out_.contains(key); }
     bool failed(std::string_view key) const { return failed_.contains(key); }
     /// The value of a key that is given.
     Value value(std::string_view key) const;
@@ -76,14 +76,29 @@ public:
     /// Whether any of the conditions holds; unknown where a key they look at is itself wrong.
     Holds any_of(const std::vector<Condition>& conditions) const;
     /// Reports a key that the choices made in this table leave without meaning.
-    void out_of_place(const KeyDoc& key) const;
+    /// @param way_out  what to do about it, from the `;` on; may be empty
+    void out_of_place(const KeyDoc& key, std::string_view way_out) const;
+
+    /// A key whose value was laid over the deck, or is one of a list of values: what it leaves without meaning in the
+    /// table is no mistake of the deck.
+    void mark_swapped(std::string_view key) { swapped_.emplace(key); }
+    /// Leaves a given key out, with a note, if one of the keys that decide on it has been swapped and the key itself
+    /// has not. @return false: nothing of the kind, the key is a mistake
+    bool leave_out(std::string_view key, const std::vector<std::string_view>& deciders, std::string_view why);
+    /// The same for a key that the choices made in this table leave without meaning.
+    bool leave_out(const KeyDoc& key);
+    /// Keys that were left out.
+    const std::set<std::string, std::less<>>& left_out() const { return left_out_; }
 
 private:
     Findings& findings_;
     const toml::table& table_;
     Position where_;
     std::string path_;
-    std::set<std::string, std::less<>> failed_;
+    std::string why_out_of_place(const KeyDoc& key) const;
+    bool is_swapped(std::string_view key) const;
+
+    std::set<std::string, std::less<>> failed_, swapped_, left_out_;
     bool has_unknown_ = false;
     std::map<std::string, std::string_view, std::less<>> chosen_;
 };
@@ -95,11 +110,17 @@ struct Key {
     std::function<bool(const Value&, TableReader&, T&)> read;
 };
 
+inline constexpr std::string_view swap_way_out =
+    "; delete it, or leave the deck as it was and exchange the word by --set, which leaves such keys out";
+
 /// A table of the deck. `check` looks at combinations once all its keys have been read.
 template <class T>
 struct Section {
     std::vector<Key<T>> keys;
     std::function<void(TableReader&, T&)> check = {};
+    /// One word may be exchanged by --set, or in a list of values: keys that it leaves without meaning are left out
+    /// with a note. Elsewhere they are mistakes, always.
+    bool swaps = false;
 };
 
 /// Reads one table into `out`, reporting everything that is wrong with it.
@@ -113,7 +134,8 @@ void read_section(const Section<T>& section, TableReader& table, T& out) {
         const bool given = table.given(doc.name);
         const auto applies = doc.only_for.empty() ? TableReader::Holds::yes : table.any_of(doc.only_for);
         if (applies == TableReader::Holds::no) {
-            if (given) table.out_of_place(doc);
+            if (given && section.swaps && table.leave_out(doc)) continue;
+            if (given) table.out_of_place(doc, section.swaps ? swap_way_out : "");
             if (given) table.mark_failed(doc.name);
             continue;
         }
@@ -135,5 +157,7 @@ void read_section(const Section<T>& section, TableReader& table, T& out) {
 
 /// Where a key called `name` lives in the deck, for suggestions: "[run]"; empty if nowhere. Defined with the sections.
 std::string home_of(std::string_view name);
+/// Whether the deck itself has a key of this name: "run".
+bool is_key_of_deck(std::string_view name);
 
 }  // namespace gneiss::deck

@@ -1,6 +1,9 @@
 #include "io/deck/sections.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <filesystem>
 
 #include "io/deck/keys.hpp"
 
@@ -22,12 +25,42 @@ bool read_parameters(const Value& value, TableReader&, MeshOptions& out) {
     return good;
 }
 
+bool is_mesh_file(std::string_view name) {
+    return name.ends_with(".msh") || name.ends_with(".geo") || name.ends_with(".inp");
+}
+
+/// Why a mesh file cannot be read, and what there is in its place; empty if it is there.
+std::string why_missing(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) return {};
+    const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+    if (!fs::is_directory(folder, error)) return fmt::format("there is no folder {}", folder.string());
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (is_mesh_file(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    std::string text = fmt::format("no such file in {}", folder.string());
+    constexpr std::size_t most_names = 10;
+    const std::size_t n = std::min(names.size(), most_names);
+    if (n == 0) return text + ", which has no .msh and no .geo";
+    text +=
+        fmt::format(", which has {}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(n), ", "),
+                    n < names.size() ? ", …" : "");
+    return text + suggestion(file.filename().string(), {names.begin(), names.end()});
+}
+
 bool read_mesh_file(const Value& value, TableReader&, MeshOptions& out) {
     if (!value.read(out.file)) return false;
     out.source = MeshOptions::Source::file;
-    if (out.file.ends_with(".msh") || out.file.ends_with(".geo") || out.file.ends_with(".inp")) return true;
-    value.refuse("a file of Gmsh, ending in .msh or .geo, or of Abaqus, ending in .inp");
-    return false;
+    if (!is_mesh_file(out.file)) {
+        value.refuse("a file of Gmsh, ending in .msh or .geo, or of Abaqus, ending in .inp");
+        return false;
+    }
+    const auto& folder = value.findings().folder;
+    const std::string why = folder ? why_missing(*folder / out.file) : "";
+    if (!why.empty()) value.problem(fmt::format("given {}: {}", value.given(), why));
+    return why.empty();
 }
 
 bool read_corners(const Value& value, TableReader&, MeshOptions& out) {
@@ -91,6 +124,19 @@ void check_output(TableReader& table, OutputOptions& output) {
             .problem(
                 fmt::format("given \"{}\", which is the name of {}[{}] already", name, table.path_of("probes"), first));
     }
+}
+
+/// Tables that mean nothing without the method of another one: left out if --set has switched it off, else a mistake.
+template <class T>
+void idle_tables(const TableReader& table, std::string_view name, std::vector<T>& out, std::string_view owner,
+                 std::string_view why) {
+    const std::string message = fmt::format("has no effect without `{}.method`{}", owner, why);
+    const toml::node* method = table.table()[owner]["method"].node();
+    if (method == nullptr || !position_of(method->source(), table.where()).is_override())
+        return table.problem(name, message);
+    table.findings().note(position_of(table.table().get(name)->source(), table.where()), name,
+                          "left out, it " + message);
+    out.clear();
 }
 
 /// Reports names that one of [[lumped]] has taken already.
@@ -284,14 +330,14 @@ const Section<CaseOptions>& case_section() {
     const auto check = [](TableReader& table, C& out) {
         if (!out.interfaces.empty() && !table.failed("fracture") && !table.failed("interface") &&
             out.fracture.method == FractureOptions::Method::none)
-            table.problem("interface", "has no effect without `fracture.method`: elements stay together");
+            idle_tables(table, "interface", out.interfaces, "fracture", ": elements stay together");
         if (table.given("material") && out.materials.empty() && !table.failed("material")) {
             table.problem("material", "given none, must be at least one [[material]]");
         }
         check_model_names(table, out.lumped);
         if (!table.failed("run") && !table.failed("output")) check_field_times(table, out);
         if (!out.walls.empty() && out.contact.method == ContactOptions::Method::none && !table.failed("contact"))
-            table.problem("wall", "has no effect without `contact.method`");
+            idle_tables(table, "wall", out.walls, "contact", "");
         for (std::size_t i = 0; i < out.walls.size(); ++i)
             if (out.walls[i].normal == std::array{0.0, 0.0} && !table.failed("wall"))
                 table.problem("wall", fmt::format("the normal of wall[{}] has no length", i));

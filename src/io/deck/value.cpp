@@ -65,11 +65,18 @@ std::string Position::text() const { return line == 0 ? source : fmt::format("{}
 
 Position position_of(const toml::source_region& region, const Position& otherwise) {
     if (!region.begin || !region.path) return otherwise;
-    if (region.path->starts_with("--set ")) return {*region.path, 0, 0};
+    if (region.path->starts_with(Position::override_prefix)) return {*region.path, 0, 0};
     return {*region.path, region.begin.line, region.begin.column};
 }
 
 void Findings::add(const Position& where, std::string message) { findings_.push_back({where, std::move(message)}); }
+
+void Findings::note(const Position& where, std::string_view key, std::string_view message) {
+    (key.starts_with("compare.") ? notes_on_compare_ : notes_)
+        .push_back(fmt::format("{}: key `{}`: {}", where.text(), key, message));
+}
+
+std::vector<std::string> Findings::notes(bool of_compare) const { return of_compare ? notes_on_compare_ : notes_; }
 
 void Findings::throw_if_any() const {
     if (findings_.empty()) return;

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
@@ -23,6 +24,8 @@ struct Position {
     unsigned line = 0;   ///< 1-based; 0 for a --set argument
     unsigned column = 0;
 
+    bool is_override() const { return source.starts_with(override_prefix); }
+    static constexpr std::string_view override_prefix = "--set ";
     std::string text() const;
 };
 
@@ -38,8 +41,14 @@ public:
 
     std::size_t count() const { return findings_.size(); }
 
-    std::optional<Plane> plane;            ///< [solid], once it has been read without error
-    std::optional<Volumetric> volumetric;  ///< likewise
+    /// What is no mistake, and yet to be told: "case.toml:12:8: key `k`: …".
+    void note(const Position& where, std::string_view key, std::string_view message);
+    /// Notes on keys of [compare], or on all others, in the order in which they came.
+    std::vector<std::string> notes(bool of_compare) const;
+
+    std::optional<Plane> plane;                   ///< [solid], once it has been read without error
+    std::optional<Volumetric> volumetric;         ///< likewise
+    std::optional<std::filesystem::path> folder;  ///< of the deck: files that it names are looked for there
 
 private:
     struct Finding {
@@ -47,6 +56,7 @@ private:
         std::string message;
     };
     std::vector<Finding> findings_;
+    std::vector<std::string> notes_, notes_on_compare_;
 };
 
 /// Range of a number; nan and infinities lie in no range.

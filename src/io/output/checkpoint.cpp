@@ -219,6 +219,10 @@ void Checkpoint::save(const std::filesystem::path& path) const {
 Checkpoint Checkpoint::load(const std::filesystem::path& path) {
     const hdf5::Silence silence;
     const std::string where = path.string();
+    if (std::filesystem::is_directory(path))
+        throw InputError(where, "is a folder, needed: a checkpoint.h5, as a run leaves it among its results");
+    if (!std::filesystem::exists(path))
+        throw InputError(where, "no such checkpoint; a run leaves checkpoint.h5 among its results");
     std::string image;
     try {
         image = read_file(path);

@@ -90,8 +90,8 @@ def standing_wave(program: str, element: str, folder: Path) -> dict[str, float]:
     points = np.linspace(0.0, length, 2 * RUN_CELLS + 1)[1:-1]
     what["output"] = {"history": 1e-12, "rows": "steps", "probes": [{"name": f"p{i}", "at": [float(x), 1.0]} for i, x in enumerate(points)]}
     write_deck(what, folder / "standing.toml")
-    subprocess.run([program, "run", str(folder / "standing.toml"), "--out", str(folder / "standing"), "--threads", "1",
-                    "--quiet"], check=True)
+    subprocess.run([program, "run", str(folder / "standing.toml"), "--overwrite", "--out", str(folder / "standing"), "--threads",
+                    "1", "--quiet"], check=True)
     table = read_table(folder / "standing" / "probes.csv")
     q = sum(np.sin(k * x) * table[f"p{i}.v_x"] for i, x in enumerate(points))
     period = period_in(matrices(program, deck(element, "crossed", nu, CELLS), folder), (2.0, 2.0), 1.0)

@@ -61,43 +61,6 @@ TEST(MakeIntegrator, NewmarkWithLinearAcceleration_Adaptive_IsRefused) {
     EXPECT_THROW(make_integrator(options), InputError);
 }
 
-TEST(MakeIntegrator, KeysWithoutEffect_AreNamedWithTheReason) {
-    const auto refusal = [](const IntegratorOptions& options) -> std::string {
-        try {
-            make_integrator(options);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    };
-    IntegratorOptions alpha;
-    alpha.type = "newmark";
-    alpha.dt = 1e-3;
-    EXPECT_EQ(refusal(alpha), "");
-    alpha.rtol = 1e-3;
-    alpha.longest = 1;
-    alpha.displacement_scale = 1;
-    for (const char* key : {"integrator.rtol", "integrator.longest", "integrator.displacement_scale"})
-        EXPECT_NE(refusal(alpha).find(std::string(key) + ": has no effect: steps are fixed"), std::string::npos)
-            << refusal(alpha);
-    alpha.adaptive = true;
-    EXPECT_EQ(refusal(alpha), "");
-
-    IntegratorOptions cvode;
-    cvode.type = "cvode";
-    cvode.functional = cvode.adams = true;
-    EXPECT_EQ(refusal(cvode), "");
-    cvode.solver = "klu";
-    EXPECT_NE(refusal(cvode).find("no linear systems are solved"), std::string::npos);
-
-    IntegratorOptions arkode;
-    arkode.type = "arkode";
-    arkode.table = "dormand_prince_7_4_5";
-    EXPECT_EQ(refusal(arkode), "");
-    arkode.solver = "klu";
-    EXPECT_NE(refusal(arkode).find("with table = \"dormand_prince_7_4_5\""), std::string::npos);
-}
-
 TEST(MakeIntegrator, StepsLeftOpen_AreRefusedWhereNothingEstimatesThem) {
     IntegratorOptions options;
     options.type = "generalized_alpha";

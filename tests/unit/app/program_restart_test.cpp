@@ -152,6 +152,19 @@ TEST_F(ProgramRestart, WhatDoesNotFit_IsRefused) {
     EXPECT_THAT(error_of({"--set", "solid.element=cst"}), HasSubstr("another mesh"));
     EXPECT_THAT(error_of({"--set", "material.0.form=hyper", "material.0.in_situ_stress=[0, 0, 0]"}),
                 Not(IsEmpty()));  // refused by the deck: in-situ stress is for hypo only
+    EXPECT_THAT(error_of({"--set", "boundary.1.on=top"}),
+                AllOf(HasSubstr("a/checkpoint.h5: was written under other supports: the deck holds "),
+                      HasSubstr(" components on `top` more, and the deck no longer holds "),
+                      HasSubstr(" on `bottom`. A restart goes on with the same supports")));
+    EXPECT_THAT(error_of({"--set", "contact.method=potential", "contact.friction=0.5"}),
+                HasSubstr("the deck has fracture.method = \"none\", contact.method = \"potential\": joints and contact "
+                          "do not come or go at a restart"));
+    EXPECT_THAT(
+        error_of({"--set", "integrator.type=verlet"}),
+        HasSubstr("was written by integrator `central_difference`, the deck has `verlet`: a restart goes on under "
+                  "the same scheme"));
+    const Ended of_a_folder = run("b", {"--restart", "a"});
+    EXPECT_THAT(of_a_folder.err, HasSubstr("a: is a folder, needed: a checkpoint.h5"));
     put("a/checkpoint.h5", "no checkpoint");
     EXPECT_THAT(error_of({}), HasSubstr("a/checkpoint.h5: is no checkpoint"));
     EXPECT_FALSE(exists("b"));

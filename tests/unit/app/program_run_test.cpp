@@ -135,6 +135,8 @@ TEST_F(ProgramRun, Threads_MoreThanCores_IsWarnedOf) {
     const Ended ended = gneiss({"run", "case.toml", "--threads", "1024", "--set", "run.t_end=1e-5"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.err, HasSubstr("warning: 1024 threads on "));
+    EXPECT_THAT(contents("results/case/run.log"), HasSubstr("1024 threads on "));
+    EXPECT_THAT(summary("results/case").at("warnings").at(0).get<std::string>(), HasSubstr("1024 threads on "));
 }
 
 TEST_F(ProgramRun, Threads_OneAndTwo_GiveTheSameBits) {
@@ -153,7 +155,7 @@ TEST_F(ProgramRun, SameFolder_Twice_NothingOfTheFirstRunStays) {
     const std::string probes = contents("results/case/probes.csv");
     ASSERT_EQ(gneiss({"run", "case.toml"}).code, 0);
     EXPECT_EQ(contents("results/case/probes.csv"), probes);
-    ASSERT_EQ(gneiss({"run", "case.toml", "--set", "output.probes=[]", "output.fields=0"}).code, 0);
+    ASSERT_EQ(gneiss({"run", "case.toml", "--overwrite", "--set", "output.probes=[]", "output.fields=0"}).code, 0);
     EXPECT_FALSE(exists("results/case/probes.csv"));
     EXPECT_FALSE(exists("results/case/fields_000002.vtu"));
 }

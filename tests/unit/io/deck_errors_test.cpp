@@ -54,6 +54,10 @@ void expect_messages(const std::vector<Bad>& table) {
     for (const Bad& bad : table) EXPECT_EQ(messages_of(bad.set), bad.messages) << testing::PrintToString(bad.set);
 }
 
+/// What follows where one word of the table could be exchanged by --set.
+const std::string way_out =
+    "; delete it, or leave the deck as it was and exchange the word by --set, which leaves such keys out";
+
 const std::string units_of_load = "must be an array of 2 numbers or expressions, [x, y] (Pa)";
 
 TEST(DeckErrors, TypesAndRanges) {
@@ -64,7 +68,8 @@ TEST(DeckErrors, TypesAndRanges) {
         {{"run.t_end=1979-05-27"}, {"key `run.t_end`: given 1979-05-27 (a date or time), must be a number > 0 s"}},
         {{"run=3"}, {"key `run`: given 3, must be a table"}},
         {{"integrator.safety=nan"}, {"key `integrator.safety`: given nan, must be in (0, 1]"}},
-        {{"material={}"}, {"key `material`: given {} (a table), must be an array of tables"}},
+        {{"material={}"},
+         {"key `material`: given one table, must be an array of tables: [[material]], with two brackets each"}},
         {{"material=[]"}, {"key `material`: given none, must be at least one [[material]]"}},
         {{"material=[3]"}, {"key `material[0]`: given 3, must be a table"}},
         {{"mesh.cells=[1.5, 2]"}, {"key `mesh.cells[0]`: given 1.5 (a number), must be an integer ≥ 1"}},
@@ -153,12 +158,27 @@ TEST(DeckErrors, UnknownKeysAndWords) {
           "\"quasi_static\", \"dynamic_relaxation\""}},
         {{"integrator.type=quasi_static", "integrator.safety=0.5"},
          {"key `integrator.safety`: only for `type` = \"central_difference\", \"verlet\", \"noh_bathe\", here `type` "
-          "is \"quasi_static\""}},
+          "is \"quasi_static\"" +
+          way_out}},
         {{"integrator.tolerance=1e-6"},
          {"key `integrator.tolerance`: only for `type` = \"quasi_static\", \"dynamic_relaxation\", "
           "\"generalized_alpha\", \"newmark\", "
           "\"hht_alpha\", \"bathe\", "
-          "here `type` is \"central_difference\""}},
+          "here `type` is \"central_difference\"" +
+          way_out}},
+        {{"integrator.type=newmark", "integrator.dt=1e-3", "integrator.rtol=1e-3"},
+         {"key `integrator.rtol`: it has no effect: steps are fixed without `adaptive = true`" + way_out}},
+        {{"integrator.type=hht_alpha", "integrator.longest=1", "integrator.displacement_scale=1"},
+         {"key `integrator.displacement_scale`: it has no effect: steps are fixed without `adaptive = true`" + way_out,
+          "key `integrator.longest`: it has no effect: steps are fixed without `adaptive = true`" + way_out}},
+        {{"integrator.type=newmark", "integrator.adaptive=true", "integrator.rtol=1e-3"}, {}},
+        {{"integrator.type=cvode", "integrator.iteration=functional", "integrator.solver=klu"},
+         {"key `integrator.solver`: it has no effect: with iteration = \"functional\", no linear systems are solved" +
+          way_out}},
+        {{"integrator.type=arkode", "integrator.solver=klu"},
+         {"key `integrator.solver`: it has no effect: with table = \"dormand_prince_7_4_5\", no linear systems are "
+          "solved" +
+          way_out}},
         {{"integrator.type=dynamic_relaxation", "integrator.tolerance=0"},
          {"key `integrator.tolerance`: given 0, must be in (0, 0.01]"}},
         {{"solid.plane=1"}, {"key `solid.plane`: given 1, must be one of \"stress\", \"strain\""}},

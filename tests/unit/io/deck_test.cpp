@@ -11,6 +11,16 @@
 namespace gneiss {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
+
 const std::string sample = R"toml(title = "pressure step in a borehole"
 [mesh]
 generator = "plate_with_hole"
@@ -183,7 +193,8 @@ TEST(Deck, SetValues_LieOverTheDeck) {
 
 TEST(Deck, File_IsReadAndItsMeshFoundBesideIt) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "gneiss_deck_test";
-    std::filesystem::create_directories(folder);
+    std::filesystem::create_directories(folder / "meshes");
+    std::ofstream(folder / "meshes/a.msh") << "\n";
     std::ofstream(folder / "case.toml")
         << "mesh = { file = \"meshes/a.msh\" }\nsolid = { plane = \"stress\" }\n"
            "material = [{ density = 1, constants = { E = 1, nu = 0 } }]\nrun = { t_end = 1 }\n";
@@ -246,6 +257,92 @@ TEST(Deck, EmptyDeck_NamesWhatIsRequired) {
                                                "case.toml:1:1: key `solid`: missing, must be a table",
                                                "case.toml:1:1: key `material`: missing, must be an array of tables",
                                                "case.toml:1:1: key `run`: missing, must be a table"));
+}
+
+DeckNotes notes_of(const std::string& text, const std::vector<std::string>& set) {
+    DeckNotes notes;
+    parse_deck(text, "case.toml", set, std::nullopt, &notes);
+    return notes;
+}
+
+TEST(Deck, SchemeExchangedBySet_KeysOfTheOther_AreLeftOutWithANote) {
+    EXPECT_THAT(notes_of(sample, {"integrator.type=cvode"}).on_case,
+                ElementsAre("case.toml:28:10: key `integrator.safety`: left out, only for `type` = "
+                            "\"central_difference\", \"verlet\", \"noh_bathe\", here `type` is \"cvode\""));
+    EXPECT_THAT(notes_of(sample, {"integrator.type=verlet"}).on_case, IsEmpty());
+    // what is set beside it has been thought of
+    EXPECT_THAT(problems_of(sample, {"integrator.type=cvode", "integrator.safety=0.5"}), SizeIs(1));
+    // and in the deck itself it is a mistake
+    std::string edited = sample;
+    EXPECT_THAT(problems_of(edited.replace(edited.find("\"central_difference\""), 20, "\"cvode\"")), SizeIs(1));
+}
+
+TEST(Deck, SchemeExchangedBySet_WhatDependsOnAKeyLeftOut_GoesToo) {
+    std::string text = sample;
+    const std::string solver =
+        "type = \"quasi_static\"\nsolver = \"pcg\"\npreconditioner = \"diagonal\"\nlinear_tolerance = 1e-6\n";
+    text.replace(text.find("type = \"central_difference\"\nsafety = 0.8\n"), 41, solver);
+    EXPECT_THAT(notes_of(text, {}).on_case, IsEmpty());
+    EXPECT_THAT(
+        notes_of(text, {"integrator.type=central_difference"}).on_case,
+        ElementsAre(HasSubstr("`integrator.solver`: left out"), HasSubstr("`integrator.preconditioner`: left out"),
+                    HasSubstr("`integrator.linear_tolerance`: left out")));
+    EXPECT_THAT(notes_of(text, {"integrator.solver=klu"}).on_case, SizeIs(2));
+    EXPECT_THAT(notes_of(text, {"integrator.type=arkode"}).on_case,
+                ElementsAre(HasSubstr("`integrator.solver`: left out, it has no effect: with table"),
+                            HasSubstr("`integrator.preconditioner`"), HasSubstr("`integrator.linear_tolerance`")));
+}
+
+TEST(Deck, MethodSwitchedOffBySet_ItsKeysAndTables_AreLeftOutWithANote) {
+    const std::string text = sample +
+                             "[contact]\nmethod = \"potential\"\nfriction = 0.5\n[[wall]]\npoint = [0, -30]\nnormal = "
+                             "[0, 1]\n[fracture]\nmethod = \"intrinsic\"\npenalty = 30.0\n";
+    DeckNotes notes;
+    const CaseOptions c =
+        parse_deck(text, "case.toml", {"contact.method=none", "fracture.method=none"}, std::nullopt, &notes);
+    EXPECT_THAT(notes.on_case, UnorderedElementsAre(HasSubstr("`contact.friction`: left out"),
+                                                    HasSubstr("`fracture.penalty`: left out"),
+                                                    HasSubstr("`wall`: left out, it has no effect without")));
+    EXPECT_TRUE(c.walls.empty());
+}
+
+TEST(Deck, CompareWithAListOfTypes_KeysThatFitSome_AreLeftOutForTheOthers) {
+    const std::string compare =
+        "[compare]\nreference = { type = \"verlet\" }\n[[compare.scheme]]\nname = \"both\"\nintegrator = { type = "
+        "[\"central_difference\", \"cvode\"], safety = 0.5 }\n";
+    DeckNotes notes;
+    const CaseOptions c = parse_deck(sample + compare, "case.toml", {}, std::nullopt, &notes);
+    EXPECT_THAT(notes.on_case, IsEmpty());
+    EXPECT_THAT(notes.on_compare, ElementsAre(HasSubstr("key `compare.scheme[0].integrator.safety`: left out")));
+    const auto& variants = c.compare->schemes[0].variants;
+    EXPECT_THAT(variants[0].toml, HasSubstr("safety = 0.5"));
+    EXPECT_THAT(variants[1].toml, Not(HasSubstr("safety")));
+    std::string none = compare;
+    EXPECT_THAT(problems_of(sample + none.replace(none.find("safety = 0.5"), 12, "rho_inf = 0.5")),
+                Contains(Field(&Problem::message, HasSubstr("`rho_inf` fits none of the values of `type`"))));
+}
+
+TEST(Deck, MeshFileThatIsMissing_IsToldWithItsLineAndWhatThereIs) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gneiss_deck_missing_mesh";
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"plate.msh", "block.geo", "notes.txt"}) std::ofstream(folder / name) << "\n";
+    std::string text = sample;
+    const std::size_t mesh = text.find("generator"), solid = text.find("[solid]");
+    std::ofstream(folder / "case.toml") << text.replace(mesh, solid - mesh, "file = \"plaet.msh\"\n");
+    const auto message = [&](const std::vector<std::string>& set) -> std::string {
+        try {
+            read_deck(folder / "case.toml", set);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(message({}),
+                AllOf(HasSubstr("case.toml:3:8: key `mesh.file`: given \"plaet.msh\": no such file in " +
+                                folder.string() + ", which has block.geo, plate.msh, did you mean `plate.msh`?")));
+    EXPECT_THAT(message({"mesh.file=meshes/plate.msh"}), HasSubstr("there is no folder"));
+    EXPECT_THAT(message({"mesh.file=plate.msh"}), "");
+    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST_F(CheckpointFile, WrongRequests_AreRefusedWithTheReason) {
 }
 
 TEST_F(CheckpointFile, NoFile_InputError) {
-    EXPECT_EQ(refusal(), path.string() + ": cannot open: No such file or directory");
+    EXPECT_EQ(refusal(), path.string() + ": no such checkpoint; a run leaves checkpoint.h5 among its results");
 }
 
 TEST_F(CheckpointFile, NotHdf5_InputError) {
