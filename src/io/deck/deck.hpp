@@ -2,6 +2,7 @@
 // Reading a deck: TOML text into CaseOptions. docs/deck.md is the reference of its keys.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,9 @@ struct ComparisonDecks {
             setting;       ///< SchemeOptions::name, SchemeVariant::setting; of the reference: "reference", ""
         std::string deck;  ///< TOML: without [compare], frames and checkpoints, with states, files by their whole names
     };
-    CaseOptions options;    ///< of the deck itself
-    std::vector<Run> runs;  ///< the reference first, where there is one
+    CaseOptions options;       ///< of the deck itself
+    std::vector<Run> runs;     ///< the reference first, where there is one
+    std::optional<Run> check;  ///< the reference under another setting: how far can it be trusted?
 };
 /// @throws InputError as read_deck does, and if there is nothing to compare
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set = {});

@@ -296,6 +296,15 @@ TEST(DeckErrors, Loads) {
         {{a + "heavyside"},
          {k + "amplitude.type`: given \"heavyside\", must be one of \"constant\", \"heaviside\", \"ramp\", \"table\", "
               "\"expression\", did you mean `heaviside`?"}},
+        {{a + "{ type = 'table', file = 'signal.csv', times = [0], values = [1] }"},
+         {k + "amplitude.file`: unknown: no file is read here, its numbers belong into the deck: type = \"table\", "
+              "times = […], values = […]"}},
+        {{a + "{ type = 'constant', frequency = 50 }"},
+         {k + "amplitude.frequency`: unknown: type = \"expression\", expression = \"sin(2*pi*50*t)\""}},
+        {{"load.0.value=[0, 'x**2']"}, {k + "value[1]`: expression \"x**2\": `**`: a power is `a^b`, at character 2"}},
+        {{"load.0.value=['0.2<y<0.8 ? 1e6 : 0', 0]"},
+         {k + "value[0]`: expression \"0.2<y<0.8 ? 1e6 : 0\": a chained comparison compares a truth, 0 or 1, with the "
+              "last number: write `0.2 < y && y < 0.8`, at character 6"}},
         {{a + "3"}, {k + "amplitude`: given 3, must be the name of an amplitude or a table { type = …, … }"}},
         {{a + "ramp"}, {k + "amplitude.end`: missing, must be a number (s)"}},
         {{a + "{ type = 'ramp', start = 1, end = 1 }"}, {k + "amplitude.end`: given 1, must be > 1 s, the start"}},
