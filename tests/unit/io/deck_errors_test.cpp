@@ -269,7 +269,7 @@ TEST(DeckErrors, Material) {
         {{"material.0.axes={ bedding = [[[0, 0]], [[0, 0], [0, 0]]] }"},
          {k + "axes.bedding[0]`: given [[0, 0]], must be at least 2 points [x, y]",
           k + "axes.bedding[1][1]`: equal to the point before it"}},
-        {{"material.0.axes={ angle = '1 +' }"}, {k + "axes.angle`: expression \"1 +\": ends too early"}},
+        {{"material.0.axes={ angle = '1 +' }"}, {k + "axes.angle`: expression \"1 +\": ends too early, at character 4"}},
         {{"material.0.axes={ angle = true }"},
          {k + "axes.angle`: given true (a boolean), must be a number or an expression"}},
         {{"material.0.viscosity={ shear = -1 }"}, {k + "viscosity.shear`: given -1, must be ≥ 0 Pa s"}},
@@ -319,7 +319,7 @@ TEST(DeckErrors, Loads) {
         {{a + "{ type = 'table', times = [], values = [] }"},
          {k + "amplitude.times`: given [], must be at least one time"}},
         {{a + "{ type = 'expression', expression = 'sin(t' }"},
-         {k + "amplitude.expression`: expression \"sin(t\": Missing parenthesis"}},
+         {k + "amplitude.expression`: expression \"sin(t\": ends too early: `)` is missing, at character 6"}},
     });
 }
 
