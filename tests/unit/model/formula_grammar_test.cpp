@@ -40,7 +40,8 @@ std::string spelt_out(const FormulaNode& node) {
             return fmt::format("(({}) ? ({}) : ({}))", part(0), part(1), part(2));
         case Kind::call: {
             std::string arguments;
-            for (std::size_t i = 0; i < node.parts.size(); ++i) arguments += (i > 0 ? "," : "") + part(i);
+            for (std::size_t i = 0; i < node.parts.size(); ++i)
+                arguments += fmt::format("{}{}", i > 0 ? "," : "", part(i));
             return fmt::format("{}({})", node.word, arguments);
         }
         case Kind::power:
