@@ -103,7 +103,8 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
 
 StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, double t_stop) {
     const bool adaptive = options_.rtol > 0;
-    const double remaining = t_stop - state.t, wanted = adaptive ? dt_ : options_.dt;
+    const double remaining = t_stop - state.t;
+    const double wanted = adaptive ? std::min(dt_, system.longest_step(state.t)) : options_.dt;
     motion_.step_from(system, state);
     StepReport report;
     const std::size_t evaluations_before = counts().evaluations;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.hpp"
 #include "base/largest.hpp"
@@ -16,6 +17,62 @@ double largest_weighted(std::span<const double> values, std::span<const double> 
     double largest = 0;
     for (std::size_t k = 0; k < values.size(); ++k) largest = std::max(largest, weights[k] * std::abs(values[k]));
     return largest;
+}
+
+/// What the largest acceleration of the loads at t does to a single node within 1/omega, m/s.
+/// @param[out] velocity  of all degrees of freedom, written where the result exceeds `above`
+double velocity_of_loads(const SemiDiscrete& system, const State& state, double t, double last_event, double omega,
+                         double above, std::vector<double>& velocity) {
+    std::vector<double> f(state.u.size());
+    Trial trial = Trial::of(state);
+    trial.t = t;
+    trial.last_event = last_event;
+    trial.z = state.z;
+    try {
+        system.force(state, trial, f);
+    } catch (const InputError&) {
+        if (t == state.t) throw;
+        return 0;  // a formula that has no value later may never be asked for one
+    }
+    subtract_damping(system, state.v, f);
+    for (const Constraint& constraint : system.constraints()) f[constraint.dof] = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] /= system.lumped_mass()[i] * omega;
+    const double largest = largest_magnitude(f);
+    if (largest > above) velocity.swap(f);
+    return largest;
+}
+
+struct Magnitudes {
+    double displacement = 0, velocity = 0;  ///< m, m/s
+};
+
+/// What loads and supports will do where they are largest and where they vary fastest.
+Magnitudes expected(const SemiDiscrete& system, const State& state, double omega) {
+    Magnitudes all;
+    const auto constraints = system.constraints();
+    std::vector<double> now(constraints.size()), later(constraints.size()), unused;
+    std::vector<double> f(state.u.size());
+    for (const double t : system.load_peaks()) {
+        if (!(t > state.t)) continue;
+        const double infinite = std::numeric_limits<double>::infinity();
+        all.velocity = std::max(all.velocity, velocity_of_loads(system, state, t, t, omega, infinite, unused));
+        if (constraints.empty()) continue;
+        const double dt = 1e-3 / omega;
+        try {
+            system.constraint_values(t, t, now);
+            system.constraint_values(t + dt, t, later);
+        } catch (const InputError&) {
+            continue;
+        }
+        for (std::size_t k = 0; k < constraints.size(); ++k) {
+            const bool is_velocity = constraints[k].kind == Constraint::Kind::velocity;
+            const double velocity = is_velocity ? now[k] : (later[k] - now[k]) / dt;
+            if (!is_velocity)
+                all.displacement = std::max(all.displacement, std::abs(now[k] - state.u[constraints[k].dof]));
+            all.velocity = std::max(all.velocity, std::abs(velocity));
+        }
+    }
+    return all;
 }
 
 }  // namespace
@@ -50,34 +107,26 @@ void ProblemScales::include(const State& accepted) {
 
 void ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
                           std::span<const double> supports) {
+    const bool is_new = scales_[1] == 0;
     load(system, scales_);
     include(state);
-    const auto mass = system.lumped_mass();
-    std::vector<double> f(state.u.size()), velocity(state.u.size(), 0.0);
+    std::vector<double> velocity(state.u.size(), 0.0);
     double largest = 0;
-    for (const double t : {state.t, state.t + 10 / omega}) {
-        Trial trial = Trial::of(state);
-        trial.t = t;
-        trial.z = state.z;
-        try {
-            system.force(state, trial, f);
-        } catch (const InputError&) {
-            if (t == state.t) throw;
-            continue;  // a formula that has no value later may never be asked for one
-        }
-        subtract_damping(system, state.v, f);
-        for (const Constraint& constraint : system.constraints()) f[constraint.dof] = 0;
-        for (std::size_t i = 0; i < f.size(); ++i) f[i] /= mass[i] * omega;
-        if (const double now = largest_magnitude(f); now > largest) {
-            largest = now;
-            velocity.swap(f);
-        }
-    }
+    for (const double t : {state.t, state.t + 10 / omega})
+        largest = std::max(largest, velocity_of_loads(system, state, t, state.last_event, omega, largest, velocity));
     largest = std::max({largest, largest_magnitude(state.v), largest_magnitude(supports)});
-    // nothing moves, nor will soon: any scale does
-    if (largest == 0) largest = 1e-6 * system.smallest_length() * omega;
+    // while nothing moves: a part of what is to come, so that neither a load that has hardly begun nor a scale out of
+    // nowhere says what is small
+    constexpr double part = 1e-3;
+    const Magnitudes to_come = is_new ? expected(system, state, omega) : Magnitudes{};
+    largest = std::max(largest, part * to_come.velocity);
+    double displacement = std::max(largest / omega, part * to_come.displacement);
+    if (largest == 0 && displacement == 0) {  // nothing ever moves: any scale does
+        displacement = 1e-6 * system.smallest_length();
+        largest = displacement * omega;
+    }
     grow(1, largest);
-    grow(0, largest / omega);
+    grow(0, displacement);
     if (weights_.empty()) return;
     std::vector<double> rate(state.z.size());
     Trial trial = Trial::of(state);

@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "integrators/mass_and_damping.hpp"
 #include "integrators/prescribed_motion.hpp"
+#include "system/load_pace.hpp"
 
 namespace gneiss {
 
@@ -95,6 +96,8 @@ StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double
         constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
         const double remaining = t_stop - state.t;
         dt = remaining / std::max(1.0, std::ceil(remaining / fixed_step() - round_off));
+    } else {
+        t_stop = stop_that_sees_loads(system, state.t, t_stop);
     }
     const int flag = step(dt, t_stop, next_.t);
     guard_.rethrow();

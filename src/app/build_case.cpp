@@ -15,6 +15,7 @@
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
+#include "model/load_courses.hpp"
 #include "model/loads.hpp"
 #include "model/make_blocks.hpp"
 #include "model/make_lumped.hpp"
@@ -53,15 +54,16 @@ std::vector<Damping::Block> absorbing_damping(const Mesh& mesh, const std::vecto
 
 /// What stands around the solid, made anew from a mesh that has come apart.
 std::function<SolidSystem::Surroundings(const Mesh&)> surroundings_of(const SolidSystem& system, const Mesh& mesh,
-                                                                      const CaseOptions& options) {
+                                                                      const CaseOptions& options,
+                                                                      const LoadCourses& courses) {
     return
-        [loads = options.loads, lumped = options.lumped, boundaries = options.boundaries,
+        [courses, loads = options.loads, lumped = options.lumped, boundaries = options.boundaries,
          thickness = options.solid.thickness,
          stiffness = stiffness_for_absorbing(mesh, options.boundaries, system.elements().blocks())](const Mesh& now) {
             SolidSystem::Surroundings around;
-            around.terms = make_loads(now, loads, thickness);
-            around.models = make_lumped(now, lumped, thickness);
-            around.constraints = make_constraints(now, boundaries);
+            around.terms = make_loads(now, loads, thickness, courses.loads);
+            around.models = make_lumped(now, lumped, thickness, courses.lumped);
+            around.constraints = make_constraints(now, boundaries, courses.boundaries);
             around.damping = absorbing_damping(now, boundaries, stiffness, thickness);
             return around;
         };
@@ -199,9 +201,15 @@ Case build_case(CaseOptions options) {
     std::vector<Problem> problems;
     SolidSystem::Parts parts;
     collect(problems, [&] { parts.blocks = make_blocks(*built.mesh, options.solid, options.materials); });
-    collect(problems, [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness); });
-    collect(problems, [&] { parts.models = make_lumped(*built.mesh, options.lumped, options.solid.thickness); });
-    collect(problems, [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries); });
+    const LoadCourses courses = find_courses(*built.mesh, options);
+    parts.courses = courses.all();
+    built.warnings.insert(built.warnings.end(), courses.warnings.begin(), courses.warnings.end());
+    collect(problems,
+            [&] { parts.terms = make_loads(*built.mesh, options.loads, options.solid.thickness, courses.loads); });
+    collect(problems,
+            [&] { parts.models = make_lumped(*built.mesh, options.lumped, options.solid.thickness, courses.lumped); });
+    collect(problems,
+            [&] { parts.constraints = make_constraints(*built.mesh, options.boundaries, courses.boundaries); });
     collect(problems, [&] { need_planes_of_symmetry(options, *built.mesh, parts.constraints.constraints()); });
     collect(problems, [&] { parts.initial_velocity = initial_velocity(*built.mesh, options.initial); });
     collect(problems, [&] {
@@ -272,7 +280,7 @@ Case build_case(CaseOptions options) {
                                           .thickness = options.solid.thickness,
                                           .overshoot = overshoot_allowed(options),
                                           .come_apart = {},
-                                          .surroundings = surroundings_of(*built.system, *built.mesh, options),
+                                          .surroundings = surroundings_of(*built.system, *built.mesh, options, courses),
                                           .loads_everywhere = std::ranges::any_of(options.loads, [](const auto& load) {
                                               return load.kind == LoadOptions::Kind::body_force;
                                           })};

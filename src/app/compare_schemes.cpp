@@ -115,6 +115,31 @@ Ended carry_out(const fs::path& program, const std::vector<std::string>& argumen
             {seconds(usage.ru_utime) + seconds(usage.ru_stime), bytes_per_unit * static_cast<double>(usage.ru_maxrss)}};
 }
 
+std::string text_of(const std::optional<double>& error) {
+    return error ? fmt::format("{:.2e}", *error) : "of what does not move in the reference";
+}
+
+void add_errors(const ComparedRun& run, nlohmann::ordered_json& row) {
+    if (!run.errors) return;
+    const auto add = [&](const char* name, const std::optional<double>& error) {
+        if (error) row[name] = *error;
+    };
+    add("error_displacement", run.errors->displacement);
+    add("error_velocity", run.errors->velocity);
+    add("error_stress", run.errors->stress);
+}
+
+/// What a reference is worth, in a sentence.
+std::string worth(const std::optional<ComparedRun>& check) {
+    if (!check) return "Nothing says how far the reference itself is off.";
+    if (!check->errors)
+        return fmt::format("The reference could not be checked ({}): {}.", check->setting, check->message);
+    return fmt::format(
+        "The reference is off by {} in u and {} in v, as its check{}{} says: errors below that say nothing.",
+        text_of(check->errors->displacement), text_of(check->errors->velocity), check->setting.empty() ? "" : " with ",
+        check->setting);
+}
+
 class Comparison {
 public:
     Comparison(const RunArguments& arguments, fs::path program)
@@ -128,6 +153,7 @@ public:
             mesh_fingerprint_ = fingerprint_text(read_file(decks_.options.mesh.file));
         check_schemes();
         std::set<std::string> names;
+        if (decks_.check) names.insert(folder_name(decks_.check->scheme, decks_.check->setting));
         for (const auto& run : decks_.runs)
             if (const std::string name = folder_name(run.scheme, run.setting);
                 name.find_first_not_of("._-") == std::string::npos || !names.insert(name).second)
@@ -143,11 +169,12 @@ public:
 private:
     void check_schemes() const;
     void keep_other_comparison() const;
-    ComparedRun carry_out_one(std::size_t number);
+    /// @param label  "[2/5]"
+    ComparedRun carry_out_one(const ComparisonDecks::Run& run, const std::string& label);
     std::string why_refused(const fs::path& deck) const;
-    void measure(std::vector<ComparedRun>& runs) const;
+    void measure(std::vector<ComparedRun>& runs, std::optional<ComparedRun>& check) const;
     std::string reference_text() const;
-    void write(const std::vector<ComparedRun>& runs) const;
+    void write(const std::vector<ComparedRun>& runs, const std::optional<ComparedRun>& check) const;
 
     RunArguments arguments_;
     fs::path program_;
@@ -160,7 +187,9 @@ private:
 /// Options that no scheme would take are found before the first run.
 void Comparison::check_schemes() const {
     std::vector<Problem> problems;
-    for (const ComparisonDecks::Run& run : decks_.runs) try {
+    std::vector<ComparisonDecks::Run> all = decks_.runs;
+    if (decks_.check) all.push_back(*decks_.check);
+    for (const ComparisonDecks::Run& run : all) try {
             make_integrator(parse_deck(run.deck, arguments_.deck.string()).integrator);
         } catch (const InputError& error) {
             for (const Problem& problem : error.problems())
@@ -197,8 +226,7 @@ std::string Comparison::why_refused(const fs::path& deck) const {
     return text;
 }
 
-ComparedRun Comparison::carry_out_one(std::size_t number) {
-    const ComparisonDecks::Run& run = decks_.runs[number];
+ComparedRun Comparison::carry_out_one(const ComparisonDecks::Run& run, const std::string& label) {
     const fs::path folder = out_ / "runs" / folder_name(run.scheme, run.setting);
     make_folder(folder);
     const fs::path deck = folder / "case.toml", made_from = folder / "made_from.json";
@@ -207,9 +235,7 @@ ComparedRun Comparison::carry_out_one(std::size_t number) {
                                      {"program", program_fingerprint_},
                                      {"threads", arguments_.threads}};
     const auto announce = [&](const char* what) {
-        if (!arguments_.quiet)
-            fmt::print(stderr, "[{}/{}] {}{}\n", number + 1, decks_.runs.size(), run_title(run.scheme, run.setting),
-                       what);
+        if (!arguments_.quiet) fmt::print(stderr, "{} {}{}\n", label, run_title(run.scheme, run.setting), what);
     };
     RunCost cost;
     int ended_with = exit_code::done;
@@ -254,18 +280,23 @@ ComparedRun Comparison::carry_out_one(std::size_t number) {
     return result;
 }
 
-void Comparison::measure(std::vector<ComparedRun>& runs) const {
+void Comparison::measure(std::vector<ComparedRun>& runs, std::optional<ComparedRun>& check) const {
     const CompareOptions& compare = *decks_.options.compare;
     std::optional<SavedStates> reference;
     if (compare.reference) reference = read_states(runs.front().folder / "states.h5");
-    for (ComparedRun& run : runs) {
-        if (!run.done()) continue;
+    const auto measure_one = [&](ComparedRun& run) {
+        if (!run.done()) return;
         try {
             const SavedStates states = read_states(run.folder / "states.h5");
             run.errors = reference ? errors_against(states, *reference) : errors_against(states, *compare.exact);
         } catch (const InputError& error) {
             run.message = error.what();
         }
+    };
+    if (check) measure_one(*check);
+    for (ComparedRun& run : runs) {
+        measure_one(run);
+        if (check) run.reference_error = check->errors;
     }
 }
 
@@ -274,7 +305,7 @@ std::string Comparison::reference_text() const {
     return compare.reference ? "the reference, " + compare.reference->toml : "the solution in closed form of the deck";
 }
 
-void Comparison::write(const std::vector<ComparedRun>& runs) const {
+void Comparison::write(const std::vector<ComparedRun>& runs, const std::optional<ComparedRun>& check) const {
     std::string csv;
     const auto add_line = [&](const std::vector<std::string>& cells) {
         for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -305,21 +336,26 @@ void Comparison::write(const std::vector<ComparedRun>& runs) const {
                                    {"peak_memory_bytes", run.cost.peak_memory}};
         if (!run.message.empty()) row["message"] = run.message;
         if (!run.warning.empty()) row["warning"] = run.warning;
-        if (run.errors) {
-            row["error_displacement"] = run.errors->displacement;
-            row["error_velocity"] = run.errors->velocity;
-            if (run.errors->stress) row["error_stress"] = *run.errors->stress;
-        }
+        add_errors(run, row);
         rows.push_back(std::move(row));
     }
-    const nlohmann::ordered_json json{{"title", decks_.options.title},
-                                      {"problem_fingerprint", fingerprint_text(decks_.problem)},
-                                      {"reference", reference_text()},
-                                      {"runs", rows}};
+    nlohmann::ordered_json json{{"title", decks_.options.title},
+                                {"problem_fingerprint", fingerprint_text(decks_.problem)},
+                                {"reference", reference_text()}};
+    if (check) {
+        nlohmann::ordered_json row{
+            {"setting", check->setting}, {"status", check->status}, {"folder", check->folder.string()}};
+        if (!check->message.empty()) row["message"] = check->message;
+        add_errors(*check, row);
+        json["reference_check"] = std::move(row);
+    }
+    json["runs"] = rows;
     write_atomically(out_ / "compare.csv", csv);
     write_atomically(out_ / "compare.json",
                      json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
-    write_atomically(out_ / "report.html", comparison_report(decks_.options.title, reference_text(), runs));
+    write_atomically(out_ / "report.html",
+                     comparison_report(decks_.options.title, reference_text() + ".",
+                                       decks_.options.compare->reference ? worth(check) : "", runs));
 }
 
 int Comparison::carry_out_all() {
@@ -329,32 +365,36 @@ int Comparison::carry_out_all() {
     if (!arguments_.quiet)
         for (const std::string& note : decks_.notes) fmt::print(stderr, "gneiss: warning: {}\n", note);
     std::vector<ComparedRun> runs;
+    std::optional<ComparedRun> check;
+    const std::size_t n = decks_.runs.size() + (decks_.check ? 1 : 0);
     for (std::size_t number = 0; number < decks_.runs.size() && !stop_.requested(); ++number) {
-        runs.push_back(carry_out_one(number));
+        runs.push_back(carry_out_one(decks_.runs[number], fmt::format("[{}/{}]", number + 1, n)));
         if (number == 0 && decks_.options.compare->reference && !runs.front().done() && !stop_.requested())
             throw RecoverableError(fmt::format("the reference has not come to its end: {}", runs.front().message));
     }
+    if (decks_.check && !stop_.requested()) check = carry_out_one(*decks_.check, fmt::format("[{}/{}]", n, n));
     if (stop_.requested()) {
         fmt::print(stderr, "stopped; call it again to go on: runs that are done are not repeated\n");
         return stop_.exit_code();
     }
-    measure(runs);
-    write(runs);
+    measure(runs, check);
+    write(runs, check);
     if (!arguments_.quiet) {
         for (const ComparedRun& run : runs)
-            std::cout << fmt::format("{:<40} {}\n", run.title(),
-                                     run.errors
-                                         ? fmt::format("error {:.2e} in u, {:.2e} in v; balance {:.1e}; {} steps, "
-                                                       "{} force evaluations, {:.3g} s",
-                                                       run.errors->displacement, run.errors->velocity, run.energy_error,
-                                                       run.steps, run.force_evaluations, run.cost.cpu_time)
-                                         : run.status + ": " + run.message);
+            std::cout << fmt::format(
+                "{:<40} {}\n", run.title(),
+                run.errors ? fmt::format("error {} in u, {} in v; balance {:.1e}; {} steps, "
+                                         "{} force evaluations, {:.3g} s",
+                                         text_of(run.errors->displacement), text_of(run.errors->velocity),
+                                         run.energy_error, run.steps, run.force_evaluations, run.cost.cpu_time)
+                           : run.status + ": " + run.message);
+        if (decks_.options.compare->reference) std::cout << worth(check) << '\n';
         for (const ComparedRun& run : runs)
             if (run.done() && !run.warning.empty())
                 fmt::print(stderr, "gneiss: warning: {}: {}\n", run.title(), run.warning);
         fmt::print(stderr, "results: {}\n", out_.string());
     }
-    const bool all_done = std::ranges::all_of(runs, &ComparedRun::done);
+    const bool all_done = std::ranges::all_of(runs, &ComparedRun::done) && (!check || check->done());
     return all_done ? exit_code::done : exit_code::failed;
 }
 

@@ -43,11 +43,23 @@ public:
             std::max(difference_, root_mean_square(areas, n, [&](std::size_t i) { return given[i] - expected[i]; }));
         scale_ = larger(scale_, root_mean_square(areas, n, [&](std::size_t i) { return expected[i]; }));
     }
-    double relative() const { return difference_ == 0 ? 0 : difference_ / scale_; }
+    std::optional<double> relative() const {
+        if (difference_ == 0) return 0;
+        if (scale_ == 0) return std::nullopt;
+        return difference_ / scale_;
+    }
+    bool reference_is_zero() const { return scale_ == 0; }
 
 private:
     double difference_ = 0, scale_ = 0;
 };
+
+/// @throws InputError if there is nothing to measure errors against
+void need_motion(const Difference& displacement, const Difference& velocity) {
+    if (displacement.reference_is_zero() && velocity.reference_is_zero())
+        throw InputError("compare.reference",
+                         "nothing moves in it at any of the samples: there is nothing to measure errors against");
+}
 
 /// Values of formulas at places.
 template <std::size_t n>
@@ -124,6 +136,7 @@ StateErrors errors_against(const SavedStates& states, const SavedStates& referen
         velocity.take(places.node_area, 2, given.velocity, expected.velocity);
         stress.take(places.triangle_area, 3, given.stress, expected.stress);
     }
+    need_motion(displacement, velocity);
     return {displacement.relative(), velocity.relative(), stress.relative()};
 }
 
@@ -137,29 +150,44 @@ StateErrors errors_against(const SavedStates& states, const ExactOptions& exact)
         if (exact.stress)
             stress.take(places.triangle_area, 3, given.stress, values_of(*exact.stress, places.triangle_at, given.t));
     }
-    return {displacement.relative(), velocity.relative(),
-            exact.stress ? std::optional(stress.relative()) : std::nullopt};
+    need_motion(displacement, velocity);
+    return {displacement.relative(), velocity.relative(), exact.stress ? stress.relative() : std::nullopt};
 }
 
 std::vector<std::string> comparison_header() {
-    return {"scheme",       "setting",      "error_displacement", "error_velocity",    "error_stress", "energy_error",
-            "energy_drift", "steps",        "rejected",           "force_evaluations", "jacobians",    "factorisations",
-            "iterations",   "cpu_time [s]", "stepping_time [s]",  "memory [MB]",       "status",       "message"};
+    return {"scheme",
+            "setting",
+            "error_displacement",
+            "error_velocity",
+            "error_stress",
+            "reference_error",
+            "energy_error",
+            "energy_drift",
+            "steps",
+            "rejected",
+            "force_evaluations",
+            "jacobians",
+            "factorisations",
+            "iterations",
+            "cpu_time [s]",
+            "stepping_time [s]",
+            "memory [MB]",
+            "status",
+            "message"};
 }
 
 std::vector<std::string> comparison_row(const ComparedRun& run, bool rounded) {
     const auto number = [&](double value) { return text_of(value, rounded); };
-    const auto error = [&](auto pick) -> std::string {
-        if (!run.errors) return "";
-        const std::optional<double> value = pick(*run.errors);
-        return value ? number(*value) : "";
+    const auto error = [&](const std::optional<StateErrors>& errors,
+                           std::optional<double> StateErrors::*of) -> std::string {
+        return errors && (*errors).*of ? number(*((*errors).*of)) : "";
     };
-    using Error = std::optional<double>;
     return {run.scheme,
             run.setting,
-            error([](const StateErrors& e) { return Error(e.displacement); }),
-            error([](const StateErrors& e) { return Error(e.velocity); }),
-            error([](const StateErrors& e) { return e.stress; }),
+            error(run.errors, &StateErrors::displacement),
+            error(run.errors, &StateErrors::velocity),
+            error(run.errors, &StateErrors::stress),
+            error(run.reference_error, &StateErrors::displacement),
             number(run.energy_error),
             number(run.energy_drift),
             fmt::format("{}", run.steps),

@@ -17,8 +17,8 @@ namespace gneiss {
 /// How far states are from others, relative: the largest difference at any of the times, over the largest value that
 /// the reference has at any of them, both in the root mean square over the area of the solid.
 struct StateErrors {
-    double displacement = 0, velocity = 0;
-    std::optional<double> stress;  ///< none where the reference has no stresses
+    std::optional<double> displacement, velocity;  ///< none where the reference has none and the states have
+    std::optional<double> stress;                  ///< none where the reference has no stresses, too
 };
 
 /// What a run cost the processor.
@@ -44,9 +44,10 @@ struct ComparedRun {
     std::string message;  ///< why it failed
     std::string warning;  ///< of its energy balance; empty: none
     RunCost cost;
-    std::optional<StateErrors> errors;  ///< none if it did not come to its end
-    double energy_error = 0;            ///< largest energy left over, over the largest entry that the ledger ever had
-    double energy_drift = 0;            ///< the same of what is left over at the end, signed
+    std::optional<StateErrors> errors;           ///< none if it did not come to its end
+    std::optional<StateErrors> reference_error;  ///< what the reference is worth: how far it is from its own check
+    double energy_error = 0;  ///< largest energy left over, over the largest entry that the ledger ever had
+    double energy_drift = 0;  ///< the same of what is left over at the end, signed
     std::size_t steps = 0, rejected = 0, force_evaluations = 0, jacobians = 0, factorisations = 0, iterations = 0;
     double wall_time = 0;  ///< of stepping, s
     RunHistory history;
@@ -58,7 +59,7 @@ struct ComparedRun {
 /// Reads what a run has left in its folder; without errors.
 ComparedRun read_run(const std::filesystem::path& folder);
 
-/// @throws InputError if the samples are of other times or places
+/// @throws InputError if the samples are of other times or places, or the reference has not moved at all
 StateErrors errors_against(const SavedStates& states, const SavedStates& reference);
 StateErrors errors_against(const SavedStates& states, const ExactOptions& exact);
 

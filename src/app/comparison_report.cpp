@@ -18,7 +18,7 @@ std::vector<ChartSeries> work_and_precision(const std::vector<ComparedRun>& runs
                                             const Number& error) {
     std::vector<ChartSeries> all;
     for (const ComparedRun& run : runs) {
-        if (!run.errors || run.errors->displacement == 0) continue;  // the reference itself
+        if (!run.errors || run.errors->displacement.value_or(0) == 0) continue;  // the reference itself
         auto found = std::ranges::find(all, run.scheme, &ChartSeries::name);
         if (found == all.end()) found = all.insert(all.end(), {run.scheme, {}, {}});
         found->x.push_back(cost(run));
@@ -47,15 +47,16 @@ std::vector<ChartSeries> histories(const std::vector<ComparedRun>& runs, const s
 
 }  // namespace
 
-std::string comparison_report(const std::string& title, const std::string& reference,
+std::string comparison_report(const std::string& title, const std::string& reference, const std::string& worth,
                               const std::vector<ComparedRun>& runs) {
     HtmlPage page(title.empty() ? "Comparison of schemes" : title);
-    page.paragraph(
-        fmt::format("Errors are relative to {}: the largest difference of the states that were compared, over the "
-                    "largest value, both "
-                    "in the root mean square over the area. Processor time is that of the whole process, all threads, "
-                    "output included.",
-                    reference));
+    page.paragraph(fmt::format(
+        "Errors are relative to {} An error is the largest difference of the states that were compared, over "
+        "the largest value, both "
+        "in the root mean square over the area. Processor time is that of the whole process, all threads, "
+        "output included.",
+        reference));
+    if (!worth.empty()) page.paragraph(worth);
     page.heading("Runs");
     std::vector<std::vector<std::string>> rows;
     for (const ComparedRun& run : runs) rows.push_back(comparison_row(run, true));
@@ -74,7 +75,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
                               {"relative error", true}, work_and_precision(runs, cost, error)),
                     fmt::format("Error of {} against {}: further down and to the left is better.", what, label));
     };
-    const Number displacement = [](const ComparedRun& run) { return run.errors->displacement; };
+    const Number displacement = [](const ComparedRun& run) { return run.errors->displacement.value_or(0); };
     const Number stress = [](const ComparedRun& run) { return run.errors->stress.value_or(0); };
     chart("displacement", of_time, "processor time, s", displacement);
     chart("displacement", of_forces, "force evaluations", displacement);

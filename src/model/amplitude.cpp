@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.hpp"
+#include "model/amplitude_course.hpp"
 
 namespace gneiss {
 namespace {
@@ -51,7 +53,7 @@ bool depends_on_time_alone(const std::string& expression) {
 
 }  // namespace
 
-Amplitude::Amplitude(const AmplitudeOptions& options) {
+Amplitude::Amplitude(const AmplitudeOptions& options, std::shared_ptr<const AmplitudeCourse> course) {
     std::vector<Problem> problems;
     switch (options.kind) {
         case AmplitudeOptions::Kind::constant:
@@ -82,6 +84,7 @@ Amplitude::Amplitude(const AmplitudeOptions& options) {
             text_ = options.expression;
             expression_.emplace(Formula(text_), "xyt");
             depends_on_position_ = !depends_on_time_alone(text_);
+            course_ = std::move(course);
             return;
     }
     pieces_.push_back(0);
@@ -105,8 +108,23 @@ double Amplitude::table_value(double t, double last_event) const {
     return before.value + (next->value - before.value) * ((t - before.t) / (next->t - before.t));
 }
 
+double Amplitude::within_piece(double t, double last_event) const {
+    if (!course_) return t;
+    const auto& switches = course_->switches;
+    const auto next = std::ranges::upper_bound(switches, last_event, {}, &AmplitudeCourse::Switch::time);
+    if (next != switches.end()) t = std::min(t, next->before);
+    if (next != switches.begin()) t = std::max(t, next[-1].after);
+    return t;
+}
+
+bool Amplitude::has_jump() const {
+    return !jumps_.empty() || (course_ && std::ranges::any_of(course_->switches, &AmplitudeCourse::Switch::jumps));
+}
+
 std::vector<double> Amplitude::switch_times() const {
     std::vector<double> times;
+    if (course_)
+        for (const AmplitudeCourse::Switch& one : course_->switches) times.push_back(one.time);
     // Slope of the segment that ends at point i; zero outside the table, where the value is held.
     const auto slope = [&](std::size_t i) {
         if (i == 0 || i == points_.size()) return 0.0;

@@ -2,6 +2,7 @@
 // Factors on loads and prescribed motions against time.
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +12,14 @@
 
 namespace gneiss {
 
+struct AmplitudeCourse;
+
 /// A factor without unit against time, and for expressions against position.
 ///
 /// A jump happens at an event and not at an instant: it counts as passed once the time of the last event has reached it
 /// (State::last_event). A step that ends exactly at a jump still sees the left limit; the step after the event starts
 /// from the right one. A comparison with t would let round-off, or a stage of an integrator, decide.
-/// An expression is taken as it stands: where it jumps or bends is not known, so no step ends there.
+/// An expression whose course is known does the same; any other is taken as it stands.
 class Amplitude {
 public:
     /// The amplitude at one instant. Where it does not depend on position it has been evaluated once.
@@ -41,20 +44,21 @@ public:
 
     /// @throws InputError with empty `where` and every problem: a time or value that is not finite, a ramp that does
     /// not end after its start, an empty table, times that descend, more than two equal times, a faulty expression
-    explicit Amplitude(const AmplitudeOptions& options);
+    /// @param course  of an expression, as course_of() finds it; null: nobody has looked
+    explicit Amplitude(const AmplitudeOptions& options, std::shared_ptr<const AmplitudeCourse> course = nullptr);
 
     /// @param t           s
     /// @param last_event  s; jumps at or before it have happened
     /// @param x, y        reference position, m
     /// @throws InputError if an expression is not finite there
     double value(double t, double last_event, double x = 0, double y = 0) const {
-        return expression_ ? (*expression_)(x, y, t) : table_value(t, last_event);
+        return expression_ ? (*expression_)(x, y, within_piece(t, last_event)) : table_value(t, last_event);
     }
     /// Valid as long as the amplitude is.
     Instant at(double t, double last_event) const { return {*this, t, last_event}; }
 
     bool depends_on_position() const { return depends_on_position_; }
-    bool has_jump() const { return !jumps_.empty(); }
+    bool has_jump() const;
 
     /// Instants of jumps and kinks, ascending, s.
     std::vector<double> switch_times() const;
@@ -71,12 +75,15 @@ private:
     };
 
     double table_value(double t, double last_event) const;
+    /// t, or the nearest instant between the switches that have happened and those that have not.
+    double within_piece(double t, double last_event) const;
 
     std::vector<Point> points_;        ///< linear between them, held outside; two equal times make a jump
     std::vector<double> jumps_;        ///< ascending, s
     std::vector<std::size_t> pieces_;  ///< first point of each continuous piece, and the number of points
     std::string text_;
     std::optional<CompiledFormula> expression_;
+    std::shared_ptr<const AmplitudeCourse> course_;  ///< of an expression; null: nobody has looked
     bool depends_on_position_ = false;
 };
 

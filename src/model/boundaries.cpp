@@ -69,13 +69,13 @@ private:
 
 /// One entry's prescriptions and its amplitude, or problems.
 void read_entry(const Mesh& mesh, const BoundaryOptions& boundary, std::size_t entry,
-                std::vector<Prescription>& prescriptions, std::map<std::size_t, Amplitude>& amplitudes,
-                ProblemList& problems) {
+                const std::shared_ptr<const AmplitudeCourse>& course, std::vector<Prescription>& prescriptions,
+                std::map<std::size_t, Amplitude>& amplitudes, ProblemList& problems) {
     const std::string where = place(entry);
     const bool is_displacement = boundary.kind == BoundaryOptions::Kind::displacement;
     std::vector<std::int32_t> nodes;
     problems.attempt(where, [&] { nodes = nodes_named(mesh, boundary.on); });
-    problems.attempt(where, [&] { amplitudes.emplace(entry, Amplitude(boundary.amplitude)); });
+    problems.attempt(where, [&] { amplitudes.emplace(entry, Amplitude(boundary.amplitude, course)); });
     if (!boundary.value[0] && !boundary.value[1]) {
         problems.add(where, fmt::format("on = \"{}\" prescribes neither x nor y", boundary.on));
     }
@@ -125,13 +125,13 @@ std::vector<double> ConstraintSet::switch_times() const {
     return {times.begin(), times.end()};
 }
 
-ConstraintSet make_constraints(const Mesh& mesh, const std::vector<BoundaryOptions>& options) {
+ConstraintSet make_constraints(const Mesh& mesh, const std::vector<BoundaryOptions>& options, const Courses& courses) {
     ProblemList problems;
     std::vector<Prescription> prescriptions;
     std::map<std::size_t, Amplitude> amplitudes;
     for (std::size_t i = 0; i < options.size(); ++i) {
         if (options[i].kind == BoundaryOptions::Kind::absorbing) continue;
-        read_entry(mesh, options[i], i, prescriptions, amplitudes, problems);
+        read_entry(mesh, options[i], i, course_at(courses, i), prescriptions, amplitudes, problems);
     }
     problems.throw_if_any();
 

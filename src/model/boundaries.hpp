@@ -8,6 +8,7 @@
 
 #include "mesh/mesh.hpp"
 #include "model/amplitude.hpp"
+#include "model/amplitude_course.hpp"
 #include "model/options.hpp"
 #include "system/semi_discrete.hpp"
 
@@ -52,7 +53,9 @@ private:
 /// @throws InputError with every problem of every entry, `where` being "[[boundary]] 2" (counted from 1): unknown
 /// names, faulty formulas and amplitudes, an entry that prescribes no component, a displacement other than zero that
 /// jumps (it would ask for an infinite velocity), two entries that prescribe different motions of one degree of freedom
-ConstraintSet make_constraints(const Mesh& mesh, const std::vector<BoundaryOptions>& options);
+/// @param courses  of the entries' amplitudes
+ConstraintSet make_constraints(const Mesh& mesh, const std::vector<BoundaryOptions>& options,
+                               const Courses& courses = {});
 
 /// The edges of all absorbing entries, each once, in the order of the entries.
 /// @throws InputError as above for names that are no boundary

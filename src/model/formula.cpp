@@ -4,9 +4,9 @@
 #include <muParser.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "base/errors.hpp"
+#include "model/formula_grammar.hpp"
 
 namespace gneiss {
 
@@ -26,63 +26,34 @@ struct CompiledFormula::Expression {
 
 namespace {
 
-std::string allowed_names(std::string_view variables) {
-    std::string names;
-    for (char name : variables) names += fmt::format("{}, ", name);
-    return names + "pi, e";
-}
-
-/// muParser counts from 0, a reader from 1.
-std::string fault(const std::string& text, const mu::ParserError& error, std::string_view variables) {
-    switch (error.GetCode()) {
-        case mu::ecUNASSIGNABLE_TOKEN:
-            return fmt::format("expression \"{}\": unknown name `{}` at character {}, allowed: {} and functions", text,
-                               error.GetToken(), error.GetPos() + 1, allowed_names(variables));
-        case mu::ecEMPTY_EXPRESSION:
-            return "expression \"\": is empty";
-        case mu::ecUNEXPECTED_EOF:
-            return fmt::format("expression \"{}\": ends too early", text);
-        default:
-            return fmt::format("expression \"{}\": {}", text, error.GetMsg());
-    }
-}
-
-/// `x = 1` would overwrite a variable: muParser allows it, a formula of position and time does not.
-std::size_t find_assignment(std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '=') continue;
-        if (i + 1 < text.size() && text[i + 1] == '=') {
-            ++i;
-        } else if (i == 0 || std::string_view("<>!").find(text[i - 1]) == std::string_view::npos) {
-            return i;
-        }
-    }
-    return std::string_view::npos;
+/// What parse_formula() has let through and muParser does not take.
+std::string fault(const std::string& text, const mu::ParserError& error) {
+    return fmt::format("expression \"{}\": {}", text, error.GetMsg());
 }
 
 }  // namespace
 
 CompiledFormula::Expression::Expression(std::string expression, std::string_view names)
     : text(std::move(expression)), variables(names) {
-    if (const std::size_t at = find_assignment(text); at != std::string::npos) {
-        throw InputError(
-            "", fmt::format("expression \"{}\": assignment at character {}, a comparison is ==", text, at + 1));
-    }
+    parse_formula(text, names);
     try {
-        parser.DefineConst("pi", std::numbers::pi);
-        parser.DefineConst("e", std::numbers::e);
+        parser.ClearFun();
+        parser.ClearConst();
+        for (const FormulaConstant& constant : formula_constants()) parser.DefineConst(constant.name, constant.value);
+        for (const FormulaFunction& function : formula_functions()) {
+            if (function.one != nullptr) parser.DefineFun(function.name, function.one);
+            if (function.two != nullptr) parser.DefineFun(function.name, function.two);
+            if (function.many != nullptr) parser.DefineFun(function.name, function.many);
+        }
         if (names.find('x') != std::string_view::npos) parser.DefineVar("x", &x);
         if (names.find('y') != std::string_view::npos) parser.DefineVar("y", &y);
         if (names.find('t') != std::string_view::npos) parser.DefineVar("t", &t);
-        parser.SetExpr(text);
+        std::string compact = text;  // muParser takes no space between a function and its parentheses
+        std::erase_if(compact, [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; });
+        parser.SetExpr(compact);
         parser.Eval();  // compiles: muParser reports syntax errors at the first evaluation
     } catch (const mu::ParserError& error) {
-        throw InputError("", fault(text, error, names));
-    }
-    if (parser.GetNumResults() != 1) {
-        throw InputError(
-            "", fmt::format("expression \"{}\": gives {} values, must give one (the decimal sign is a point)", text,
-                            parser.GetNumResults()));
+        throw InputError("", fault(text, error));
     }
 }
 
@@ -119,7 +90,7 @@ double CompiledFormula::evaluate(double x, double y, double t) const {
     try {
         value = expression.parser.Eval();
     } catch (const mu::ParserError& error) {
-        throw InputError("", fault(expression.text, error, expression.variables));
+        throw InputError("", fault(expression.text, error));
     }
     if (!std::isfinite(value)) {
         const std::string shown = std::isnan(value) ? "not a number" : fmt::format("{}", value);

@@ -9,9 +9,9 @@
 
 namespace gneiss {
 
-/// A Formula made ready for evaluation. Expressions are those of muParser: + - * / ^, comparisons, && || and c ? a : b,
-/// sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log10 sqrt abs sign rint min max, and the constants pi and e.
-/// A formula that uses no variable is evaluated once and costs nothing afterwards.
+/// A Formula made ready for evaluation. Expressions are made of what formula_grammar.hpp says, and evaluated by
+/// muParser. Whatever else muParser would take is refused when the formula is made, with what to write instead. A
+/// formula that uses no variable is evaluated once and costs nothing afterwards.
 ///
 /// One object may be used by one thread at a time; copies are independent of each other.
 class CompiledFormula {

@@ -78,7 +78,7 @@ std::unique_ptr<ForceTerm> build(const Mesh& mesh, const LoadOptions& load, cons
 }  // namespace
 
 std::vector<std::unique_ptr<ForceTerm>> make_loads(const Mesh& mesh, const std::vector<LoadOptions>& options,
-                                                   double thickness) {
+                                                   double thickness, const Courses& courses) {
     assert(thickness > 0);
     ProblemList problems;
     std::vector<std::unique_ptr<ForceTerm>> loads;
@@ -91,7 +91,7 @@ std::vector<std::unique_ptr<ForceTerm>> make_loads(const Mesh& mesh, const std::
         bool sound = problems.attempt(where, [&] { target = find_target(mesh, load); });
         sound &= problems.attempt(where, [&] { x.emplace(load.value[0], "xy"); });
         sound &= problems.attempt(where, [&] { y.emplace(load.value[1], "xy"); });
-        sound &= problems.attempt(where, [&] { amplitude.emplace(load.amplitude); });
+        sound &= problems.attempt(where, [&] { amplitude.emplace(load.amplitude, course_at(courses, i)); });
         if (!sound) continue;
         problems.attempt(where, [&] {
             loads.push_back(build(mesh, load, target, Field{*x, *y}, *amplitude, thickness));

@@ -10,7 +10,7 @@
 namespace gneiss {
 
 std::vector<std::unique_ptr<LumpedModel>> make_lumped(const Mesh& mesh, const std::vector<LumpedOptions>& options,
-                                                      double thickness) {
+                                                      double thickness, const Courses& courses) {
     ProblemList problems;
     std::vector<std::unique_ptr<LumpedModel>> models;
     for (std::size_t i = 0; i < options.size(); ++i)
@@ -19,7 +19,7 @@ std::vector<std::unique_ptr<LumpedModel>> make_lumped(const Mesh& mesh, const st
             if (options[i].kind == LumpedOptions::Kind::gas)
                 models.push_back(std::make_unique<GasCavity>(options[i], mesh, edges, thickness));
             else
-                models.push_back(std::make_unique<Platen>(options[i], mesh, edges));
+                models.push_back(std::make_unique<Platen>(options[i], mesh, edges, course_at(courses, i)));
         });
     problems.throw_if_any();
     return models;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -16,8 +17,9 @@ Vec2<double> at_node(std::span<const double> values, std::int32_t node) {
 
 }  // namespace
 
-Platen::Platen(const LumpedOptions& options, const Mesh& mesh, const std::vector<BoundaryEdge>& edges)
-    : options_(options), amplitude_(options.amplitude) {
+Platen::Platen(const LumpedOptions& options, const Mesh& mesh, const std::vector<BoundaryEdge>& edges,
+               std::shared_ptr<const AmplitudeCourse> course)
+    : options_(options), amplitude_(options.amplitude, std::move(course)) {
     const double length = std::hypot(options.direction[0], options.direction[1]);
     if (!(length > 0)) throw InputError("", "direction = [0, 0]: has no length");
     if (amplitude_.depends_on_position()) throw InputError("", "amplitude: may depend on t alone, not on x and y");

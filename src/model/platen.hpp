@@ -11,6 +11,7 @@
 // the first component of a point of its own; the second one is held by the same springs, and nothing pushes it. That
 // of an actuator is given.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,10 @@ namespace gneiss {
 class Platen final : public LumpedModel {
 public:
     /// @param options  of a mass or an actuator
+    /// @param course   of its amplitude
     /// @throws InputError with empty `where` for a direction without length or a faulty amplitude
-    Platen(const LumpedOptions& options, const Mesh& mesh, const std::vector<BoundaryEdge>& edges);
+    Platen(const LumpedOptions& options, const Mesh& mesh, const std::vector<BoundaryEdge>& edges,
+           std::shared_ptr<const AmplitudeCourse> course = nullptr);
 
     const std::string& name() const override { return options_.name; }
     std::optional<Point> point() const override;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -44,7 +45,8 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
       damping_(std::move(parts.damping)),
       initial_velocity_(std::move(parts.initial_velocity)),
       mass_(elements_.lumped_mass()),
-      smallest_edge_(mesh_size(mesh).smallest_edge) {
+      smallest_edge_(mesh_size(mesh).smallest_edge),
+      courses_(std::move(parts.courses)) {
     interactions_.take_chunks(elements_.chunk_of_node(), elements_.n_chunks());
     n_mesh_dof_ = mass_.size();
     models_.place_points(mesh.n_nodes());
@@ -56,6 +58,9 @@ SolidSystem::SolidSystem(const Mesh& mesh, Parts parts)
         const std::vector<double> own = term->switch_times();
         switches.insert(switches.end(), own.begin(), own.end());
     }
+    for (const auto& course : courses_) load_peaks_.insert(load_peaks_.end(), {course->largest_at, course->fastest_at});
+    std::ranges::sort(load_peaks_);
+    load_peaks_.erase(std::ranges::unique(load_peaks_).begin(), load_peaks_.end());
     events_.push_back(std::make_unique<LoadSwitch>(std::move(switches)));
     if (interactions_.watch()) events_.push_back(std::make_unique<Look>(*this));
 }
@@ -127,6 +132,12 @@ void SolidSystem::follow(const Parting& parting, std::optional<Surroundings> sur
     models_.place_points(parting.mesh.n_nodes());
     interactions_.follow(parting, accepted);
     tangent_.reset();
+}
+
+double SolidSystem::longest_step(double t) const {
+    double longest = std::numeric_limits<double>::infinity();
+    for (const auto& course : courses_) longest = std::min(longest, course->longest_step(t));
+    return longest;
 }
 
 void SolidSystem::constraint_values(double t, double last_event, std::span<double> values) const {

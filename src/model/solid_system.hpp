@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/amplitude_course.hpp"
 #include "model/boundaries.hpp"
 #include "model/element_forces.hpp"
 #include "model/force_term.hpp"
@@ -26,6 +27,7 @@ public:
         ConstraintSet constraints;
         Damping damping;
         std::vector<double> initial_velocity;  ///< m/s, shape (2 n_nodes)
+        Courses courses = {};                  ///< of all amplitudes that somebody has looked at
     };
     SolidSystem(const Mesh& mesh, Parts parts);
     SolidSystem(SolidSystem&&) = delete;  // the tangent refers to its parts
@@ -57,6 +59,8 @@ public:
     void stiffness_bound(const State& accepted, const Trial& trial, std::span<double> bound) const override;
     StoredEnergies stored_energies(const State& state) const override;
     void add_path_energies(const State& from, State& to) const override;
+    double longest_step(double t) const override;
+    std::span<const double> load_peaks() const override { return load_peaks_; }
     std::span<const std::unique_ptr<Event>> events() const override { return events_; }
 
     const ElementForces& elements() const { return elements_; }
@@ -112,6 +116,8 @@ private:
 
     mutable std::vector<double> partial_;            ///< scratch of sums
     mutable std::unique_ptr<SolidTangent> tangent_;  ///< null before it is asked for
+    Courses courses_;
+    std::vector<double> load_peaks_;  ///< s, ascending
 };
 
 }  // namespace gneiss

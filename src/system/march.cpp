@@ -1,5 +1,7 @@
 #include "system/march.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
@@ -125,6 +127,32 @@ private:
     bool slow_ = false;              ///< the last trial has left more than half of the way to it
 };
 
+/// Tells once of steps that pass over a load: of those that are given, or follow from stability alone.
+class LoadWatch {
+public:
+    explicit LoadWatch(const SemiDiscrete& system) : system_(system) {}
+
+    /// @param from  where the first step of the report began, s
+    void look(double from, StepReport& step) {
+        constexpr double round_off = 1e-6;
+        for (double t = from; !told_ && t < step.t;) {
+            const double longest = system_.longest_step(t);
+            if (step.dt > (1 + round_off) * longest) {
+                told_ = true;
+                step.warning += fmt::format(
+                    "{}a step of {:.3g} s near t = {:.6g} s is longer than {:.3g} s, within which a load or a support "
+                    "varies: what it does in between may be missed; take shorter steps",
+                    step.warning.empty() ? "" : "; ", step.dt, t, longest);
+            }
+            t += std::max(longest, step.dt);
+        }
+    }
+
+private:
+    const SemiDiscrete& system_;
+    bool told_ = false;
+};
+
 }  // namespace
 
 EventOutcome apply_due_events(const SemiDiscrete& system, State& state) {
@@ -153,14 +181,17 @@ MarchOutcome March::run(const SemiDiscrete& system, Integrator& integrator, Stat
     EventSearch search(system, integrator, event_tolerance);
     const bool searches = search.wanted();
     const bool unseen = next_look && !searches;
+    LoadWatch loads(system);
     try {
         while (state.t < t_end) {
             const double planned = next_stop ? next_stop(state.t) : t_end;
             const double stop = first_instant({t_end, planned, next_event_time(system, state)});
-            const StepReport step = searches ? search.advance(state, stop)
-                                    : unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
-                                             : integrator.advance(system, state, stop);
+            const double from = state.t;
+            StepReport step = searches ? search.advance(state, stop)
+                              : unseen ? integrator.advance_unseen(system, state, stop, next_look(state.t))
+                                       : integrator.advance(system, state, stop);
             if (before_events) before_events(step);
+            if (!integrator.is_static()) loads.look(from, step);
             switch (apply_due_events(system, state)) {
                 case EventOutcome::none:
                     break;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -179,6 +180,16 @@ public:
             if (event->watches() && event->stirred(state)) return true;
         return false;
     }
+
+    /// The longest step that begins at t and still sees how loads and prescribed motions vary, s: a longer one may pass
+    /// over a pulse. Where they jump or bend is for events(), which end steps anyway.
+    virtual double longest_step(double t) const {
+        (void)t;
+        return std::numeric_limits<double>::infinity();
+    }
+    /// Instants at which loads and prescribed motions are largest, or vary fastest, s, ascending: magnitudes to expect
+    /// while nothing moves yet.
+    virtual std::span<const double> load_peaks() const { return {}; }
 };
 
 }  // namespace gneiss

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -54,6 +56,35 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
+/// A table [integrator], and what sets it apart.
+struct Setting {
+    std::string text;
+    toml::table integrator;
+};
+
+Setting setting_of(const SchemeVariant& variant) {
+    return {variant.setting, *toml::parse("integrator = " + variant.toml)["integrator"].as_table()};
+}
+
+/// A reference with one setting changed: a tolerance ten times as large, or steps half as long; none where nothing says
+/// how accurate it is.
+std::optional<Setting> other_setting(const SchemeVariant& reference) {
+    const IntegratorOptions& one = reference.integrator;
+    const auto changed = [&](const char* key, double to) {
+        Setting setting = setting_of(reference);
+        setting.integrator.insert_or_assign(key, to);
+        setting.text = fmt::format("{} = {}", key, to);
+        return setting;
+    };
+    const bool is_static = one.type == "quasi_static" || one.type == "dynamic_relaxation";
+    const bool to_tolerance = one.type == "cvode" || one.type == "ida" || (one.type == "arkode" && one.dt == 0);
+    constexpr double largest_tolerance = 0.1;
+    if (to_tolerance || one.adaptive) return changed("rtol", std::min(largest_tolerance, 10 * one.rtol));
+    if (is_static) return one.step > 0 ? std::optional(changed("step", 0.5 * one.step)) : std::nullopt;
+    if (one.dt > 0) return changed("dt", 0.5 * one.dt);
+    return changed("safety", 0.5 * one.safety);
+}
+
 }  // namespace
 
 CaseOptions parse_deck(std::string_view text, std::string name, const std::vector<std::string>& set,
@@ -78,7 +109,8 @@ CaseOptions read_deck(const std::filesystem::path& file, const std::vector<std::
 
 ComparisonDecks read_comparison(const std::filesystem::path& file, const std::vector<std::string>& set) {
     DeckNotes notes;
-    ComparisonDecks decks{read_deck(file, set, &notes), {}, {}, {}};
+    ComparisonDecks decks;
+    decks.options = read_deck(file, set, &notes);
     decks.notes = std::move(notes.on_compare);
     if (!decks.options.compare)
         throw InputError(file.string(), "has no table [compare]: schemes to run, and what to measure them against");
@@ -101,13 +133,16 @@ ComparisonDecks read_comparison(const std::filesystem::path& file, const std::ve
     };
     document.erase("integrator");
     decks.problem = toml_text();
-    const auto add = [&](const std::string& scheme, const SchemeVariant& variant) {
-        document.insert_or_assign("integrator", *toml::parse("integrator = " + variant.toml)["integrator"].as_table());
-        decks.runs.push_back({scheme, variant.setting, toml_text()});
+    const auto deck_of = [&](const std::string& scheme, const Setting& setting) {
+        document.insert_or_assign("integrator", setting.integrator);
+        return ComparisonDecks::Run{scheme, setting.text, toml_text()};
     };
-    if (compare.reference) add("reference", *compare.reference);
+    if (compare.reference) decks.runs.push_back(deck_of("reference", setting_of(*compare.reference)));
+    if (const auto other = compare.reference ? other_setting(*compare.reference) : std::nullopt)
+        decks.check = deck_of("check of the reference", *other);
     for (const SchemeOptions& scheme : compare.schemes)
-        for (const SchemeVariant& variant : scheme.variants) add(scheme.name, variant);
+        for (const SchemeVariant& variant : scheme.variants)
+            decks.runs.push_back(deck_of(scheme.name, setting_of(variant)));
     return decks;
 }
 

@@ -41,6 +41,7 @@ struct ComparisonDecks {
     CaseOptions options;             ///< of the deck itself
     std::string problem;             ///< TOML: what all runs have in common, their decks without [integrator]
     std::vector<Run> runs;           ///< the reference first, where there is one
+    std::optional<Run> check;        ///< the reference under another setting: how far can it be trusted?
     std::vector<std::string> notes;  ///< DeckNotes::on_compare
 };
 /// @throws InputError as read_deck does, and if there is nothing to compare

@@ -8,6 +8,7 @@
 #include "io/deck/choices.hpp"
 #include "io/deck/deck.hpp"
 #include "io/deck/sections.hpp"
+#include "model/formula_grammar.hpp"
 
 namespace gneiss {
 namespace deck {
@@ -63,6 +64,24 @@ std::string key_table(const SectionDoc& section) {
         text += fmt::format("\n`{}`:\n", key.name);
         for (const Word& word : key.words) text += fmt::format("- `\"{}\"`: {}\n", word.name, word.meaning);
     }
+    return text;
+}
+
+/// What expressions are made of, from the table that they are compiled against.
+std::string expression_tables() {
+    std::string text = "| Operator | Meaning |\n|---|---|\n";
+    const auto cell = [](std::string_view code) {  // a bar would end the cell
+        std::string escaped;
+        for (const char c : code) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+        return escaped;
+    };
+    for (const FormulaOperator& one : formula_operators())
+        text += fmt::format("| `{}` | {} |\n", cell(one.text), cell(one.meaning));
+    text += "\n| Function or constant | Meaning |\n|---|---|\n";
+    for (const FormulaFunction& one : formula_functions())
+        text += fmt::format("| `{}({})` | {} |\n", one.name, one.arguments, one.meaning);
+    for (const FormulaConstant& one : formula_constants())
+        text += fmt::format("| `{}` | {} |\n", one.name, one.meaning);
     return text;
 }
 
@@ -170,6 +189,12 @@ std::string renew_deck_reference(std::string_view document) {
             throw InputError("", "a place for keys in the reference is not closed by <!-- end -->");
         }
         const std::string_view name = document.substr(at + opening.size(), name_end - at - opening.size());
+        if (name == "expressions") {
+            text += document.substr(from, name_end + 5 - from);
+            text += fmt::format("\n{}\n", deck::expression_tables());
+            from = end;
+            continue;
+        }
         const auto section =
             std::find_if(sections.begin(), sections.end(), [&](const auto& s) { return s.name == name; });
         if (section == sections.end()) throw InputError("", fmt::format("the schema has no section `{}`", name));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/suggest.hpp"
 
@@ -22,6 +23,38 @@ std::string condition_text(const std::vector<Condition>& conditions) {
         if (!condition.words.empty()) text += " = " + quoted_list(condition.words, '"');
     }
     return text;
+}
+
+constexpr std::string_view no_file =
+    "no file is read here, its numbers belong into the deck: type = \"table\", times = […], values = […]";
+constexpr std::string_view harmonic = "type = \"expression\", expression = \"sin(2*pi*50*t)\"";
+constexpr std::string_view factor =
+    "the magnitude is `value` of the load or the boundary, an amplitude is a factor on it";
+
+/// A key that people expect in a table, and what to write instead.
+struct ForeignKey {
+    std::string_view table, key, meaning;
+};
+constexpr std::array<ForeignKey, 12> foreign_keys{{
+    {"amplitude", "file", no_file},
+    {"amplitude", "data", no_file},
+    {"amplitude", "points", no_file},
+    {"amplitude", "value", factor},
+    {"amplitude", "scale", factor},
+    {"amplitude", "frequency", harmonic},
+    {"amplitude", "period", harmonic},
+    {"amplitude", "omega", harmonic},
+    {"amplitude", "time", "`start` of a heaviside or a ramp, `times` of a table"},
+    {"amplitude", "duration", "`start` and `end` of a ramp"},
+    {"amplitude", "formula", "write `expression`"},
+    {"amplitude", "function", "write `expression`"},
+}};
+
+/// Empty: nobody expects it there.
+std::string_view expected_at(std::string_view path, std::string_view key) {
+    const auto found = std::ranges::find_if(
+        foreign_keys, [&](const ForeignKey& one) { return path.ends_with(one.table) && one.key == key; });
+    return found == foreign_keys.end() ? std::string_view{} : found->meaning;
 }
 
 }  // namespace
@@ -51,6 +84,8 @@ void TableReader::refuse_unknown(const std::vector<std::string_view>& known) {
                 ", `{}` belongs to the deck itself: what stands below a [table] is part of it, so write it above all "
                 "tables, or as a [table] of its own",
                 name);
+        if (const std::string_view expected = expected_at(path_, name); !expected.empty())
+            hint = fmt::format(": {}", expected);
         if (hint.empty()) hint = ", allowed: " + quoted_list(known, '`');
         findings_.add(position_of(key.source(), position_of(node.source(), where_)),
                       fmt::format("key `{}`: unknown{}", path_of(name), hint));

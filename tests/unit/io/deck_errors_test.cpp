@@ -293,7 +293,7 @@ TEST(DeckErrors, Material) {
         {{"material.0.axes={ bedding = [[[0, 0]], [[0, 0], [0, 0]]] }"},
          {k + "axes.bedding[0]`: given [[0, 0]], must be at least 2 points [x, y]",
           k + "axes.bedding[1][1]`: equal to the point before it"}},
-        {{"material.0.axes={ angle = '1 +' }"}, {k + "axes.angle`: expression \"1 +\": ends too early"}},
+        {{"material.0.axes={ angle = '1 +' }"}, {k + "axes.angle`: expression \"1 +\": ends too early, at character 4"}},
         {{"material.0.axes={ angle = true }"},
          {k + "axes.angle`: given true (a boolean), must be a number or an expression"}},
         {{"material.0.viscosity={ shear = -1 }"}, {k + "viscosity.shear`: given -1, must be ≥ 0 Pa s"}},
@@ -320,6 +320,15 @@ TEST(DeckErrors, Loads) {
         {{a + "heavyside"},
          {k + "amplitude.type`: given \"heavyside\", must be one of \"constant\", \"heaviside\", \"ramp\", \"table\", "
               "\"expression\", did you mean `heaviside`?"}},
+        {{a + "{ type = 'table', file = 'signal.csv', times = [0], values = [1] }"},
+         {k + "amplitude.file`: unknown: no file is read here, its numbers belong into the deck: type = \"table\", "
+              "times = […], values = […]"}},
+        {{a + "{ type = 'constant', frequency = 50 }"},
+         {k + "amplitude.frequency`: unknown: type = \"expression\", expression = \"sin(2*pi*50*t)\""}},
+        {{"load.0.value=[0, 'x**2']"}, {k + "value[1]`: expression \"x**2\": `**`: a power is `a^b`, at character 2"}},
+        {{"load.0.value=['0.2<y<0.8 ? 1e6 : 0', 0]"},
+         {k + "value[0]`: expression \"0.2<y<0.8 ? 1e6 : 0\": a chained comparison compares a truth, 0 or 1, with the "
+              "last number: write `0.2 < y && y < 0.8`, at character 6"}},
         {{a + "3"}, {k + "amplitude`: given 3, must be the name of an amplitude or a table { type = …, … }"}},
         {{a + "ramp"}, {k + "amplitude.end`: missing, must be a number (s)"}},
         {{a + "{ type = 'ramp', start = 1, end = 1 }"}, {k + "amplitude.end`: given 1, must be > 1 s, the start"}},
@@ -334,7 +343,7 @@ TEST(DeckErrors, Loads) {
         {{a + "{ type = 'table', times = [], values = [] }"},
          {k + "amplitude.times`: given [], must be at least one time"}},
         {{a + "{ type = 'expression', expression = 'sin(t' }"},
-         {k + "amplitude.expression`: expression \"sin(t\": Missing parenthesis"}},
+         {k + "amplitude.expression`: expression \"sin(t\": ends too early: `)` is missing, at character 6"}},
     });
 }
 

@@ -86,10 +86,11 @@ TEST(CompiledFormula, BadExpression_IsReportedWithItsPlace) {
               "expression \"2*z\": unknown name `z` at character 3, allowed: x, y, pi, e and functions");
     EXPECT_EQ(message_of("x + t"),
               "expression \"x + t\": unknown name `t` at character 5, allowed: x, y, pi, e and functions");
-    EXPECT_EQ(message_of("sin(x"), "expression \"sin(x\": Missing parenthesis");
-    EXPECT_EQ(message_of("1 +"), "expression \"1 +\": ends too early");
+    EXPECT_EQ(message_of("sin(x"), "expression \"sin(x\": ends too early: `)` is missing, at character 6");
+    EXPECT_EQ(message_of("1 +"), "expression \"1 +\": ends too early, at character 4");
     EXPECT_EQ(message_of(""), "expression \"\": is empty");
-    EXPECT_EQ(message_of("x = 1"), "expression \"x = 1\": assignment at character 3, a comparison is ==");
+    EXPECT_EQ(message_of("x = 1"),
+              "expression \"x = 1\": `=`: nothing is assigned in an expression, a comparison is ==, at character 3");
     EXPECT_EQ(message_of("0,5"), "expression \"0,5\": gives 2 values, must give one (the decimal sign is a point)");
     EXPECT_EQ(message_of("x == 0 ? 1 : 2"), "no error");
 }

@@ -49,7 +49,9 @@ private:
 class EventsOnly final : public SemiDiscrete {
 public:
     std::vector<std::unique_ptr<Event>> list;
+    double longest = infinity;  ///< step that sees its loads, between 2 and 3 s; s
 
+    double longest_step(double t) const override { return t >= 3 ? infinity : std::max(longest, 2 - t); }
     Layout layout() const override { return {}; }
     State initial_state() const override { return {}; }
     std::span<const double> lumped_mass() const override { return {}; }
@@ -356,6 +358,24 @@ TEST_F(MarchOverTime, FailedStep_LeavesTheLastAcceptedState) {
     integrator.fails_at = 2;
     EXPECT_THROW(run(), RecoverableError);
     EXPECT_EQ(state.t, 2);
+}
+
+TEST_F(MarchOverTime, StepsThatPassOverALoad_AreToldOfOnce) {
+    std::vector<std::string> warnings;
+    march.after_step = [&](const StepReport& step) {
+        if (!step.warning.empty()) warnings.push_back(step.warning);
+        return true;
+    };
+    system.longest = 0.25;
+    march.t_end = 5;
+    run();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_THAT(warnings[0], testing::HasSubstr("a step of 1 s near t = 2 s is longer than 0.25 s"));
+    warnings.clear();
+    state = {};
+    system.longest = 1;
+    run();
+    EXPECT_THAT(warnings, testing::IsEmpty());
 }
 
 }  // namespace
