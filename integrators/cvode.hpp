@@ -2,6 +2,7 @@
 // CVODE of SUNDIALS: multistep methods of variable order and step, BDF for stiff systems, Adams for others  [Hindmarsh
 // et al., ACM TOMS 31 (2005) 363].
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/sundials_ode.hpp"
 
 namespace gneiss {
@@ -16,10 +17,12 @@ public:
         Iteration iteration = Iteration::newton;
         /// Lowers the order of BDF where SUNDIALS' detection finds orders 3 to 5 unstable. Of undamped vibration it finds
         /// too little too late, and its steps cost more than a smaller tolerance does  [decision 027].
-        bool stability_detection = false;
+        bool stability_detection = scheme_defaults::stability_detection;
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     explicit Cvode(const Options& options);
 

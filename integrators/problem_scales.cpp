@@ -48,18 +48,20 @@ void ProblemScales::include(const State& accepted) {
     grow(2, largest_weighted(accepted.z, weights_));
 }
 
-void ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
-                          std::span<const double> supports) {
+std::size_t ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
+                                 std::span<const double> supports) {
     load(system, scales_);
     include(state);
     const auto mass = system.lumped_mass();
     std::vector<double> f(state.u.size()), velocity(state.u.size(), 0.0);
     double largest = 0;
+    std::size_t n_evaluations = 0;
     for (const double t : {state.t, state.t + 10 / omega}) {
         Trial trial = Trial::of(state);
         trial.t = t;
         trial.z = state.z;
         try {
+            ++n_evaluations;
             system.force(state, trial, f);
         } catch (const InputError&) {
             if (t == state.t) throw;
@@ -78,7 +80,7 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
     if (largest == 0) largest = 1e-6 * system.smallest_length() * omega;
     grow(1, largest);
     grow(0, largest / omega);
-    if (weights_.empty()) return;
+    if (weights_.empty()) return n_evaluations;
     std::vector<double> rate(state.z.size());
     Trial trial = Trial::of(state);
     trial.v = velocity;
@@ -86,6 +88,7 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
     system.internal_rate(state, trial, rate);
     grow(2, largest_weighted(rate, weights_) / omega);
     if (scales_[2] == 0) grow(2, 1);  // nothing strains yet: 1 Pa, until something does
+    return n_evaluations;
 }
 
 }  // namespace gneiss

@@ -50,12 +50,14 @@ std::vector<ChartSeries> histories(const std::vector<ComparedRun>& runs, const s
 std::string comparison_report(const std::string& title, const std::string& reference,
                               const std::vector<ComparedRun>& runs) {
     HtmlPage page(title.empty() ? "Comparison of schemes" : title);
-    page.paragraph(
-        fmt::format("Errors are relative to {}: the largest difference of the states that were compared, over the "
-                    "largest value, both "
-                    "in the root mean square over the area. Processor time is that of the whole process, all threads, "
-                    "output included.",
-                    reference));
+    page.paragraph(fmt::format(
+        "Errors are relative to {}: the largest difference of the states that were compared, over the "
+        "largest value, both "
+        "in the root mean square over the area. Processor time is that of the whole process, all threads, "
+        "output included. Force evaluations are those of the scheme itself; those in the states that starts begin "
+        "from, for the energy balance and reactions, and of steps that a search for an event threw away "
+        "stand in columns of their own.",
+        reference));
     page.heading("Runs");
     std::vector<std::vector<std::string>> rows;
     for (const ComparedRun& run : runs) rows.push_back(comparison_row(run, true));
@@ -68,6 +70,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
 
     page.heading("Work and precision");
     const Number of_time = [](const ComparedRun& run) { return run.cost.cpu_time; };
+    // of the scheme alone: what the balance takes beside it is no part of a method
     const Number of_forces = [](const ComparedRun& run) { return static_cast<double>(run.force_evaluations); };
     const auto chart = [&](const char* what, const Number& cost, const char* label, const Number& error) {
         page.figure(svg_chart(fmt::format("Error of {} against {}", what, label), {label, true},
@@ -77,7 +80,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
     const Number displacement = [](const ComparedRun& run) { return run.errors->displacement; };
     const Number stress = [](const ComparedRun& run) { return run.errors->stress.value_or(0); };
     chart("displacement", of_time, "processor time, s", displacement);
-    chart("displacement", of_forces, "force evaluations", displacement);
+    chart("displacement", of_forces, "force evaluations of the scheme", displacement);
     chart("stress", of_time, "processor time, s", stress);
 
     page.heading("Histories");
