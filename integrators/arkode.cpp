@@ -93,7 +93,10 @@ bool Arkode::is_explicit(const std::string& table) {
 }
 
 Arkode::Arkode(const Options& options)
-    : SundialsOde(options, !is_explicit(options.table)), options_(options), table_(find_table(options.table)) {
+    : SundialsOde(options, !is_explicit(options.table)),
+      options_(options),
+      table_(find_table(options.table)),
+      order_(table_.order()) {
     options_.validate();
 }
 

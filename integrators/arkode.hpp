@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/sundials_ode.hpp"
 
 namespace gneiss {
@@ -26,11 +27,13 @@ std::span<const RungeKuttaTable> runge_kutta_tables();
 class Arkode final : public SundialsOde {
 public:
     struct Options : SundialsOde::Options {
-        std::string table = "dormand_prince_7_4_5";
+        std::string table = scheme_defaults::table;
         double dt = 0;  ///< fixed step, s; 0: from the error estimate
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     /// Whether a table, by name, is explicit: there is nothing to solve.
@@ -46,6 +49,8 @@ private:
     void restart(double t) override;
     int step(double dt, double t_stop, double& t) override;
     int dense(double t, N_Vector at) override;
+    /// Tables of order 5 evaluate once, those of higher orders four times.
+    bool dense_output_is_free() const override { return order_ < 5; }
     double last_step() override;
     std::size_t failed_trials() override;
     std::string flag_name(int flag) override;
@@ -57,6 +62,7 @@ private:
 
     Options options_;
     const RungeKuttaTable& table_;
+    int order_;
     struct Deleter {
         void operator()(void* memory) const;
     };

@@ -54,9 +54,9 @@ void Bathe::start(const SemiDiscrete& system, State& state, StartReason why) {
     if (why == StartReason::fresh) omega_ = system.frequency_bound(state).omega;
     if (why != StartReason::reinitialise) allocate(system);
     forget(system, state);
-    motion_.hold(system, state, why);
+    newton_.counts().starts += motion_.hold(system, state, why);
     system.force(state, Trial::of(state), f_);
-    ++newton_.counts().evaluations;
+    ++newton_.counts().starts;
     motion_.reactions(system, state.v, f_, reactions_);
     motion_.accelerations(system, state.v, f_, a_);
 }
@@ -145,8 +145,17 @@ void Bathe::solve(const SemiDiscrete& system, const State& from, State& to, doub
 }
 
 void Bathe::accept(const SemiDiscrete& system, const State& from, State& to) {
-    system.force_and_update(from, Trial::of(to), f_, to.z, to.history);
-    ++newton_.counts().evaluations;
+    const bool remembers = !(to.z.empty() && to.history.empty());
+    const auto solved = newton_.forces();
+    if (remembers) {
+        system.force_and_update(from, Trial::of(to), f_, to.z, to.history);
+        ++newton_.counts().evaluations;
+    } else if (!solved.empty()) {
+        f_.assign(solved.begin(), solved.end());
+    } else if (!system.constraints().empty()) {
+        system.force(from, Trial::of(to), f_);
+        ++newton_.counts().balance;
+    }
     system.add_path_energies(from, to);
     reactions_before_.swap(reactions_new_);
     motion_.reactions(system, to.v, f_, reactions_new_);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/stage_newton.hpp"
 #include "system/integrator.hpp"
@@ -23,12 +24,14 @@ namespace gneiss {
 class Bathe final : public Integrator {
 public:
     struct Options {
-        double rho_inf = 0;  ///< spectral radius at infinite frequency, [0, 1]
-        double dt = 0;       ///< step, s, > 0
+        double rho_inf = scheme_defaults::rho_inf;  ///< spectral radius at infinite frequency, [0, 1]
+        double dt = 0;                              ///< step, s, > 0
         StageNewton::Options newton = {};
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     explicit Bathe(const Options& options);
@@ -38,7 +41,7 @@ public:
     void start(const SemiDiscrete& system, State& state, StartReason why) override;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
-    std::span<const double> reactions() const override { return reactions_; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) override { return reactions_; }
     double matrix_bytes() const override { return newton_.bytes(); }
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;

@@ -67,6 +67,7 @@ void CentralDifference::start(const SemiDiscrete& system, State& state, StartRea
     } else {
         system.force(state, Trial::of(state), a_);
     }
+    ++n_starts_;
     average(system, state, Trial::of(state));
     settle(system, state);
     for (std::size_t k = 0; k < net_.size(); ++k) reactions_[k] = -net_[k];

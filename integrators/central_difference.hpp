@@ -33,8 +33,10 @@ public:
     StepReport advance_unseen(const SemiDiscrete& system, State& state, double t_stop, double t_look) override;
     /// With it the leapfrog conserves the energy of a linear system to round-off; see LeapfrogEnergy.
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
-    std::span<const double> reactions() const override { return reactions_; }
-    WorkCounts work() const override { return {.elements = n_local_ + (local_ ? local_->n_evaluated() : 0)}; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) override { return reactions_; }
+    WorkCounts work() const override {
+        return {.elements = n_local_ + (local_ ? local_->n_evaluated() : 0), .starts = n_starts_};
+    }
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
 
@@ -91,6 +93,7 @@ private:
     std::unique_ptr<LocalSteps> local_;  ///< null: one step for all elements
     std::size_t n_local_ = 0;            ///< elements evaluated by earlier local_
     LeapfrogEnergy energy_;
+    std::size_t n_starts_ = 0;  ///< evaluations of forces where starts begin
     std::vector<double> inverse_mass_;
     std::vector<double> a_;       ///< acceleration at the accepted state; f while a step is under way
     std::vector<double> v_half_;  ///< v(n+1/2), kept where the force needs another velocity

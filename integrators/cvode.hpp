@@ -2,6 +2,7 @@
 // CVODE of SUNDIALS: multistep methods of variable order and step, BDF for stiff systems, Adams for others  [Hindmarsh
 // et al., ACM TOMS 31 (2005) 363].
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/sundials_ode.hpp"
 
 namespace gneiss {
@@ -14,12 +15,14 @@ public:
         Method method = Method::bdf;
         int max_order = 0;  ///< BDF 1 to 5, Adams 1 to 12; 0: the largest
         Iteration iteration = Iteration::newton;
-        /// Lowers the order of BDF where SUNDIALS' detection finds orders 3 to 5 unstable. Of undamped vibration it finds
-        /// too little too late, and its steps cost more than a smaller tolerance does  [decision 027].
-        bool stability_detection = false;
+        /// Lowers the order of BDF where SUNDIALS' detection finds orders 3 to 5 unstable. Of undamped vibration it
+        /// finds too little too late, and its steps cost more than a smaller tolerance does  [decision 027].
+        bool stability_detection = scheme_defaults::stability_detection;
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     explicit Cvode(const Options& options);
 

@@ -10,7 +10,6 @@
 namespace gneiss {
 namespace {
 
-constexpr int usual_iterations = 1'000'000;
 constexpr double ahead = 0.1;  // beta/h
 constexpr double margin = 0.95;
 // Prescribed motion comes in no faster than this part of an edge in an iteration. Waves of pressure pass about an edge
@@ -53,7 +52,8 @@ void DynamicRelaxation::Measures::add(const Measures& other) {
     largest_free = std::max(largest_free, other.largest_free);
 }
 
-DynamicRelaxation::DynamicRelaxation(const Options& options) : LoadStepping(options, usual_iterations) {}
+DynamicRelaxation::DynamicRelaxation(const Options& options)
+    : LoadStepping(options, scheme_defaults::relaxation_iterations) {}
 
 void DynamicRelaxation::allocate(const SemiDiscrete& system) {
     const std::size_t n = system.layout().n_dof;

@@ -43,9 +43,10 @@ void ExplicitSubSteps::start(const SemiDiscrete& system, State& state, StartReas
     step_.start(system, state, why, damping_rate(system));
     if (why == StartReason::fresh) omega_ = step_.omega();
     if (why != StartReason::reinitialise) allocate(system);
-    motion_.hold(system, state, why);
+    n_starts_ += motion_.hold(system, state, why);
     step_.supports_held(system, state, why);
     system.force(state, Trial::of(state), f_);
+    ++n_starts_;
     motion_.reactions(system, state.v, f_, reactions_);
     accelerate(system, state.v);
     a_.swap(a_new_);
@@ -68,12 +69,13 @@ StepReport ExplicitSubSteps::advance(const SemiDiscrete& system, State& state, d
     return {state.t, dt, 0, n_force_};
 }
 
-void ExplicitSubSteps::evaluate(const SemiDiscrete& system, const State& from, const Trial& trial, State& to) {
+void ExplicitSubSteps::evaluate(const SemiDiscrete& system, const State& from, const Trial& trial, State& to,
+                                std::size_t& count) {
     if (to.z.empty() && to.history.empty())
         system.force(from, trial, f_);
     else
         system.force_and_update(from, trial, f_, to.z, to.history);
-    ++n_force_;
+    ++count;
 }
 
 void ExplicitSubSteps::sub_step(const SemiDiscrete& system, const State& from, double h, double t,

@@ -16,7 +16,8 @@ public:
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const final;
-    std::span<const double> reactions() const final { return reactions_; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) final { return reactions_; }
+    WorkCounts work() const final { return {.balance = n_balance_, .starts = n_starts_}; }
     IntegratorMemory save() const final;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) final;
 
@@ -53,7 +54,13 @@ protected:
         return sub_;
     }
     /// f_ at a trial that comes after `from`; z and history into `to`.
-    void evaluate(const SemiDiscrete& system, const State& from, const Trial& trial, State& to);
+    void evaluate(const SemiDiscrete& system, const State& from, const Trial& trial, State& to) {
+        evaluate(system, from, trial, to, n_force_);
+    }
+    /// For reactions alone.
+    void evaluate_for_balance(const SemiDiscrete& system, const State& from, const Trial& trial, State& to) {
+        evaluate(system, from, trial, to, n_balance_);
+    }
     /// Solves (1 + w M^-1 C) v = right_ + w_force M^-1 f_ for the free velocities; supports have those of their motion.
     void kick(const SemiDiscrete& system, double w, double w_force, State& to);
     /// rate -= w M^-1 C v.
@@ -69,13 +76,15 @@ protected:
 
 private:
     double damping_rate(const SemiDiscrete& system) const;
+    void evaluate(const SemiDiscrete& system, const State& from, const Trial& trial, State& to, std::size_t& count);
     /// a_new_ from the forces f_ at a velocity.
     void accelerate(const SemiDiscrete& system, std::span<const double> v);
 
     StableStep step_;
     LeapfrogEnergy energy_;
-    double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
-    std::size_t n_force_ = 0;
+    double omega_ = 0;         ///< upper bound of the natural frequencies at the start of the run, rad/s
+    std::size_t n_force_ = 0;  ///< evaluations of forces in this step, by the scheme
+    std::size_t n_balance_ = 0, n_starts_ = 0;
     std::vector<double> inverse_mass_;
     std::vector<AbsorbingNode> absorbing_;
     std::vector<double> a_, a_before_;  ///< acceleration at the accepted state, and at the last end but one

@@ -36,9 +36,20 @@ public:
     /// @param[out] to  u, v, z and t
     void unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to);
     /// F(t, y), or a part of it.
+    /// @param keep  what has taken all forces, for repeat() and forces_at()
     /// @throws RecoverableError if the forces do
     void rate(const SemiDiscrete& system, const State& accepted, double t, std::span<const double> y, Part part,
-              std::span<double> dydt);
+              std::span<double> dydt, bool keep = true);
+
+    /// What rate() would give, if it was asked for the same last: a step of a Runge-Kutta method begins where the one
+    /// before ended, and that may have been a stage of it, or evaluated for dense output. Not where forces depend on
+    /// what the accepted state remembers.
+    /// @return whether dydt has been written
+    bool repeat(const State& accepted, double t, std::span<const double> y, Part part, std::span<double> dydt) const;
+    /// All forces, N, shape (n_dof), without C v, where rate() has taken them last at (t, y); otherwise empty.
+    std::span<const double> forces_at(double t, std::span<const double> y) const;
+    /// Forces have jumped.
+    void forget_forces();
 
     /// z given where there is one.
     static Trial trial_of(const State& state, double last_event) {
@@ -51,6 +62,11 @@ private:
     PrescribedMotion motion_;
     State trial_;
     std::vector<double> f_, part_of_f_;
+    double kept_t_ = 0;           ///< s
+    double kept_last_event_ = 0;  ///< s
+    Part kept_part_ = Part::all;
+    std::vector<double> kept_y_, kept_f_, kept_rate_;  ///< of the last rate() of all forces; empty: none
+    bool remembers_ = false;                           ///< forces depend on history
 };
 
 }  // namespace gneiss

@@ -88,14 +88,14 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
     }
     if (why != StartReason::reinitialise) allocate(system);
     forget(system, state);
-    motion_.hold(system, state, why);
-    scales_.start(system, state, omega_, motion_.velocity());
+    newton_.counts().starts += motion_.hold(system, state, why);
+    newton_.counts().starts += scales_.start(system, state, omega_, motion_.velocity());
     if (dt_ == 0) {
         dt_ = options_.dt > 0 ? options_.dt : 1 / omega_;
         if (options_.rtol > 0 && options_.longest > 0) dt_ = std::min(dt_, options_.longest);
     }
     system.force(state, Trial::of(state), f_);
-    ++newton_.counts().evaluations;
+    ++newton_.counts().starts;
     motion_.reactions(system, state.v, f_, reactions_);
     motion_.accelerations(system, state.v, f_, a_);
     if (options_.rtol > 0) at_end_ = a_;
@@ -217,9 +217,19 @@ void GeneralizedAlpha::solve(const SemiDiscrete& system, const State& state, dou
 }
 
 void GeneralizedAlpha::arrive(const SemiDiscrete& system, const State& state) {
-    system.force_and_update(state, {next_.t, next_.last_event, next_.u, next_.v, {}}, f_, next_.z, next_.history);
-    ++newton_.counts().evaluations;
-    if (options_.rtol == 0) return;
+    const Trial end{next_.t, next_.last_event, next_.u, next_.v, {}};
+    const bool remembers = !(next_.z.empty() && next_.history.empty()), estimates = options_.rtol > 0;
+    const auto solved = newton_.forces();  // of the stage
+    if (remembers) {
+        system.force_and_update(state, end, f_, next_.z, next_.history);
+        ++newton_.counts().evaluations;
+    } else if (options_.scheme.alpha_f == 0 && !solved.empty()) {
+        f_.assign(solved.begin(), solved.end());
+    } else {
+        system.force(state, end, f_);
+        ++(estimates ? newton_.counts().evaluations : newton_.counts().balance);
+    }
+    if (!estimates) return;
     std::ranges::copy(f_, scratch_.begin());
     motion_.accelerations(system, next_.v, scratch_, at_end_next_);
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/problem_scales.hpp"
 #include "integrators/stage_newton.hpp"
@@ -23,7 +24,7 @@ class GeneralizedAlpha final : public Integrator {
 public:
     /// The four numbers of a scheme.
     struct Scheme {
-        double alpha_m = 0, alpha_f = 0, beta = 0.25, gamma = 0.5;
+        double alpha_m = 0, alpha_f = 0, beta = scheme_defaults::beta, gamma = scheme_defaults::gamma;
 
         /// Order 2, undamped at low frequencies.
         /// @param rho_inf  spectral radius at infinite frequency, [0, 1]
@@ -37,21 +38,25 @@ public:
         /// c in u(n+1) - u(t + dt) = c dt^3 u''' + ...: a(n+1) is the acceleration at t + dt (1 + alpha_m - alpha_f),
         /// to first order, and dt u''' is its change along the step.
         double error_constant() const { return beta + 0.5 * (alpha_m - alpha_f) - 1.0 / 6; }
+
+        friend bool operator==(const Scheme&, const Scheme&) = default;
     };
     struct Options {
         std::string name = "generalized_alpha";
-        Scheme scheme = Scheme::chung_hulbert(0.8);
+        Scheme scheme = Scheme::chung_hulbert(scheme_defaults::rho_inf);
         double dt = 0;       ///< step, s; with rtol: the first one, 0: one over the highest natural frequency
         double rtol = 0;     ///< local error of displacement over its scale, root mean square, [0, 0.1]; 0: fixed steps
         double longest = 0;  ///< longest step with rtol, s; 0: no limit
         ProblemScales::Given scales;
-        double tolerance = 1e-9;     ///< Newton: force out of balance over the largest force, (0, 0.01]
-        int most_iterations = 20;    ///< of Newton's method in a step, >= 1
-        LinearSolverOptions solver;  ///< of the linear systems
+        double tolerance = scheme_defaults::tolerance;  ///< Newton: out of balance over the largest force, (0, 0.01]
+        int most_iterations = scheme_defaults::newton_iterations;  ///< of Newton's method in a step, >= 1
+        LinearSolverOptions solver;                                ///< of the linear systems
 
         StageNewton::Options newton() const { return {tolerance, most_iterations, solver}; }
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     explicit GeneralizedAlpha(const Options& options);
@@ -61,7 +66,7 @@ public:
     void start(const SemiDiscrete& system, State& state, StartReason why) override;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
-    std::span<const double> reactions() const override { return reactions_; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) override { return reactions_; }
     WorkCounts work() const override { return newton_.work(); }
     double matrix_bytes() const override;
     IntegratorMemory save() const override;

@@ -16,6 +16,8 @@ public:
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     explicit Ida(const Options& options);
 

@@ -43,6 +43,7 @@ void LoadStepping::start(const SemiDiscrete& system, State& state, StartReason w
     std::ranges::fill(state.v, 0.0);
     state.path.viscous_power = 0;
     system.force(state, Trial::of(state), f_);
+    ++counts_.starts;
     for (std::size_t k = 0; k < reactions_.size(); ++k) reactions_[k] = -f_[system.constraints()[k].dof];
     if (why == StartReason::fresh || why == StartReason::reinitialise) find_jump(system);
 }
@@ -118,7 +119,8 @@ void LoadStepping::find_changes(const SemiDiscrete& system, const State& state) 
 }
 
 double LoadStepping::accept(const SemiDiscrete& system, State& state) {
-    ++counts_.evaluations;
+    const bool remembers = !(next_.z.empty() && next_.history.empty());
+    ++(remembers ? counts_.evaluations : counts_.balance);
     system.force_and_update(state, trial(), f_, next_.z, next_.history);
     system.add_path_energies(state, next_);
     for (std::size_t k = 0; k < reactions_.size(); ++k) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/scheme_defaults.hpp"
 #include "system/integrator.hpp"
 
 namespace gneiss {
@@ -19,18 +20,23 @@ namespace gneiss {
 class LoadStepping : public Integrator {
 public:
     struct Options {
-        double tolerance = 1e-9;  ///< largest force out of balance over the largest of the step's forces, (0, 0.01]
-        double step = 0;          ///< first load step, s; 0: up to the next stop
-        double longest = 0;       ///< longest load step, s; 0: no limit
-        double shortest = 1e-6;   ///< load step at which to give up, part of the first one, (0, 1)
-        int most_iterations = 0;  ///< in a load step, >= 0; 0: as many as the method should need
+        double tolerance = scheme_defaults::tolerance;  ///< largest force out of balance over the largest of the step's
+                                                        ///< forces, (0, 0.01]
+        double step = 0;                                ///< first load step, s; 0: up to the next stop
+        double longest = 0;                             ///< longest load step, s; 0: no limit
+        double shortest = scheme_defaults::shortest;  ///< load step at which to give up, part of the first one, (0, 1)
+        int most_iterations = 0;                      ///< in a load step, >= 0; 0: as many as the method should need
 
         /// Adds what is wrong, under "integrator.".
         void check(std::vector<Problem>& problems) const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     /// Of what has been done since the integrator was made, rejected trials included.
     struct Counts {
-        std::size_t evaluations = 0;        ///< of forces
+        std::size_t evaluations = 0;        ///< of forces, by the method
+        std::size_t starts = 0;             ///< those in states that starts begin from
+        std::size_t balance = 0;            ///< those for energies and reactions alone
         std::size_t iterations = 0;         ///< of the method
         std::size_t factorisations = 0;     ///< of tangents
         std::size_t linear_iterations = 0;  ///< of iterative linear solvers
@@ -40,12 +46,18 @@ public:
     std::vector<StepColumn> step_columns() const final {
         return {{"iterations"}, {"factorisations"}, {"linear_iterations"}, {"force_evaluations"}, {"unbalanced"}};
     }
-    WorkCounts work() const final { return {counts_.factorisations, counts_.factorisations, counts_.iterations}; }
+    WorkCounts work() const final {
+        return {.jacobians = counts_.factorisations,
+                .factorisations = counts_.factorisations,
+                .iterations = counts_.iterations,
+                .balance = counts_.balance,
+                .starts = counts_.starts};
+    }
     void start(const SemiDiscrete& system, State& state, StartReason why) final;
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) final;
     /// Nothing moves: zero.
     double kinetic_energy(const SemiDiscrete&, const State&) const final { return 0; }
-    std::span<const double> reactions() const final { return reactions_; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) final { return reactions_; }
     IntegratorMemory save() const final {
         return {{"reactions", reactions_}, {"step", {dt_, first_dt_}}, {"jumped", {jumped_ ? 1.0 : 0.0}}};
     }

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/sundials_ode.hpp"
 
 namespace gneiss {
@@ -28,11 +29,13 @@ std::span<const MultirateTable> multirate_tables();
 class Mri final : public SundialsOde {
 public:
     struct Options : SundialsOde::Options {
-        std::string table = "mri_gark_erk33a";
+        std::string table = scheme_defaults::slow_table;
         double dt = 0;  ///< of the slow part, s, > 0
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     explicit Mri(const Options& options);

@@ -114,6 +114,7 @@ void NewtonSystem::add_internal_forces(std::span<const double> b_z) {
     std::ranges::fill(z_, 0.0);
     Trial trial = Trial::of(at_);
     trial.z = z_;
+    counts_.evaluations += 2;
     system_.force(at_, trial, f_zero_);
     std::ranges::copy(b_z, z_.begin());
     system_.force(at_, trial, f_);

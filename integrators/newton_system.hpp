@@ -27,6 +27,7 @@ class NewtonSystem {
 public:
     struct Counts {
         std::size_t linearisations = 0, factorisations = 0, solves = 0;
+        std::size_t evaluations = 0;  ///< of forces, for differences
     };
 
     /// @param solver  of the linear systems

@@ -13,6 +13,7 @@
 // The paper takes all damping at the velocities v + p dt a and v1 + s dt a1. So do we for forces that depend on v,
 // which alone limit the step at c dt = 2p/(4p - 2p^2 - 1); C, local to a node, is solved for and limits nothing.
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/explicit_sub_steps.hpp"
 
 namespace gneiss {
@@ -21,10 +22,12 @@ class NohBathe final : public ExplicitSubSteps {
 public:
     struct Options {
         StableStep::Options step;
-        double split = 0.54;  ///< p, [0.5, 0.7]; 0.5: two leapfrog steps, no dissipation
+        double split = scheme_defaults::split;  ///< p, [0.5, 0.7]; 0.5: two leapfrog steps, no dissipation
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     explicit NohBathe(const Options& options);

@@ -74,10 +74,10 @@ void PrescribedMotion::step_from(const SemiDiscrete& system, const State& accept
     for (std::size_t k = 0; k < start_.size(); ++k) start_[k] = accepted.u[system.constraints()[k].dof];
 }
 
-void PrescribedMotion::hold(const SemiDiscrete& system, State& state, StartReason why) {
+std::size_t PrescribedMotion::hold(const SemiDiscrete& system, State& state, StartReason why) {
     step_from(system, state);
     const auto constraints = system.constraints();
-    if (constraints.empty() || why == StartReason::recover) return;
+    if (constraints.empty() || why == StartReason::recover) return 0;
     evaluate(system, state.t);
     bool strained = false;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -92,13 +92,15 @@ void PrescribedMotion::hold(const SemiDiscrete& system, State& state, StartReaso
             state.path.support_work += 0.5 * system.lumped_mass()[dof] * (v_[k] * v_[k] - before * before);
         }
     }
-    if (strained && !(state.z.empty() && state.history.empty())) {
+    const bool updates = strained && !(state.z.empty() && state.history.empty());
+    if (updates) {
         std::vector<double> f(state.u.size()), z(state.z.size()), history(state.history.size());
         system.force_and_update(state, Trial::of(state), f, z, history);
         state.z = std::move(z);
         state.history = std::move(history);
     }
     step_from(system, state);
+    return updates ? 1 : 0;
 }
 
 double PrescribedMotion::sample(const SemiDiscrete& system, double t) {

@@ -34,7 +34,8 @@ public:
     void step_from(const SemiDiscrete& system, const State& accepted);
     /// Puts position and velocity of the supports at state.t into a state in which an integrator starts, and its z
     /// where they strain the solid; steps count from there.
-    void hold(const SemiDiscrete& system, State& state, StartReason why);
+    /// @return how often it has evaluated forces
+    std::size_t hold(const SemiDiscrete& system, State& state, StartReason why);
 
     /// Finds displacement and velocity at t, s; earlier than accepted.t only of motion that is smooth there.
     void evaluate(const SemiDiscrete& system, double t);

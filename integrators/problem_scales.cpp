@@ -44,6 +44,7 @@ double velocity_of_loads(const SemiDiscrete& system, const State& state, double 
 
 struct Magnitudes {
     double displacement = 0, velocity = 0;  ///< m, m/s
+    std::size_t n_evaluations = 0;          ///< of forces, that it took
 };
 
 /// What loads and supports will do where they are largest and where they vary fastest.
@@ -56,6 +57,7 @@ Magnitudes expected(const SemiDiscrete& system, const State& state, double omega
         if (!(t > state.t)) continue;
         const double infinite = std::numeric_limits<double>::infinity();
         all.velocity = std::max(all.velocity, velocity_of_loads(system, state, t, t, omega, infinite, unused));
+        ++all.n_evaluations;
         if (constraints.empty()) continue;
         const double dt = 1e-3 / omega;
         try {
@@ -105,20 +107,24 @@ void ProblemScales::include(const State& accepted) {
     grow(2, largest_weighted(accepted.z, weights_));
 }
 
-void ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
-                          std::span<const double> supports) {
+std::size_t ProblemScales::start(const SemiDiscrete& system, const State& state, double omega,
+                                 std::span<const double> supports) {
     const bool is_new = scales_[1] == 0;
     load(system, scales_);
     include(state);
     std::vector<double> velocity(state.u.size(), 0.0);
     double largest = 0;
-    for (const double t : {state.t, state.t + 10 / omega})
+    std::size_t n_evaluations = 0;
+    for (const double t : {state.t, state.t + 10 / omega}) {
         largest = std::max(largest, velocity_of_loads(system, state, t, state.last_event, omega, largest, velocity));
+        ++n_evaluations;
+    }
     largest = std::max({largest, largest_magnitude(state.v), largest_magnitude(supports)});
     // while nothing moves: a part of what is to come, so that neither a load that has hardly begun nor a scale out of
     // nowhere says what is small
     constexpr double part = 1e-3;
     const Magnitudes to_come = is_new ? expected(system, state, omega) : Magnitudes{};
+    n_evaluations += to_come.n_evaluations;
     largest = std::max(largest, part * to_come.velocity);
     double displacement = std::max(largest / omega, part * to_come.displacement);
     if (largest == 0 && displacement == 0) {  // nothing ever moves: any scale does
@@ -127,7 +133,7 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
     }
     grow(1, largest);
     grow(0, displacement);
-    if (weights_.empty()) return;
+    if (weights_.empty()) return n_evaluations;
     std::vector<double> rate(state.z.size());
     Trial trial = Trial::of(state);
     trial.v = velocity;
@@ -135,6 +141,7 @@ void ProblemScales::start(const SemiDiscrete& system, const State& state, double
     system.internal_rate(state, trial, rate);
     grow(2, largest_weighted(rate, weights_) / omega);
     if (scales_[2] == 0) grow(2, 1);  // nothing strains yet: 1 Pa, until something does
+    return n_evaluations;
 }
 
 }  // namespace gneiss

@@ -20,6 +20,8 @@ public:
 
         /// Adds what is wrong, under "integrator.".
         void check(std::vector<Problem>& problems) const;
+
+        friend bool operator==(const Given&, const Given&) = default;
     };
 
     ProblemScales() = default;
@@ -29,7 +31,8 @@ public:
     /// now, does to a single node within 1/omega. Scales that have been larger stay.
     /// @param omega         upper bound of the natural frequencies, rad/s
     /// @param supports      velocities of prescribed motion, m/s
-    void start(const SemiDiscrete& system, const State& state, double omega, std::span<const double> supports);
+    /// @return how often it has evaluated forces
+    std::size_t start(const SemiDiscrete& system, const State& state, double omega, std::span<const double> supports);
     /// They grow with the largest value so far.
     void include(const State& accepted);
 

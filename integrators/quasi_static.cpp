@@ -13,8 +13,7 @@
 namespace gneiss {
 namespace {
 
-constexpr int usual_iterations = 20;  // far from quadratic convergence after as many
-constexpr long few_iterations = 4;    // a step that needs no more is followed by one twice as long
+constexpr long few_iterations = 4;  // a step that needs no more is followed by one twice as long
 
 void free_kinsol(void* memory) { KINFree(&memory); }
 
@@ -71,7 +70,7 @@ const QuasiStatic::Options& QuasiStatic::checked(const Options& options) {
 }
 
 QuasiStatic::QuasiStatic(const Options& options)
-    : LoadStepping(checked(options), usual_iterations),
+    : LoadStepping(checked(options), scheme_defaults::newton_iterations),
       solver_options_(options.solver),
       matrix_free_(options.matrix_free),
       kinsol_(nullptr, free_kinsol) {}

@@ -20,6 +20,8 @@ public:
     struct Options : LoadStepping::Options {
         LinearSolverOptions solver = {};  ///< of the linear systems
         bool matrix_free = false;         ///< pcg and gmres: products with the tangent by differences of forces
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     /// @throws InputError

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/scheme_defaults.hpp"
 #include "system/integrator.hpp"
 #include "system/levels.hpp"
 
@@ -24,8 +25,8 @@ struct StabilityLimit {
 class StableStep {
 public:
     struct Options {
-        double safety = 0.8;   ///< factor on the critical step, (0, 1]
-        double dt = 0;         ///< fixed step, s; 0: from the critical step
+        double safety = scheme_defaults::safety;  ///< factor on the critical step, (0, 1]
+        double dt = 0;                            ///< fixed step, s; 0: from the critical step
         bool lanczos = false;  ///< bound omega by a Lanczos estimate of the assembled pencil, closer than the elements'
 
         int bound_interval = 0;  ///< steps between two looks at the bound; 0: adapted to how fast it changes
@@ -34,6 +35,8 @@ public:
         void check(std::vector<Problem>& problems) const;
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     StableStep(const Options& options, const StabilityLimit& limit) : options_(options), limit_(limit) {}

@@ -51,6 +51,7 @@ double StageNewton::bytes() const {
 double StageNewton::evaluate(const SemiDiscrete& system, const State& accepted, const Stage& stage) {
     system.force(accepted, Trial::of(stage.at), f_);
     ++counts_.evaluations;
+    solved_f_ = f_;
     subtract_damping(system, stage.at.v, f_);
     const auto mass = system.lumped_mass();
     double largest = largest_magnitude(f_);
@@ -72,6 +73,7 @@ void StageNewton::factorise(const SemiDiscrete& system, const State& accepted, c
 }
 
 void StageNewton::solve(const SemiDiscrete& system, const State& accepted, const Stage& stage, std::span<double> a) {
+    solved_f_.clear();
     if (free_->n() == 0) return;
     double before = 0;
     for (int iteration = 0;; ++iteration) {
@@ -104,6 +106,7 @@ void StageNewton::solve(const SemiDiscrete& system, const State& accepted, const
                 std::max({step, std::abs(stage.end.u[dof] - accepted.u[dof]), stage.dt * std::abs(stage.end.v[dof])});
         }
         stage.place();
+        solved_f_.clear();
         if (moved <= eps * step) return;
     }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "linear/bordered_solver.hpp"
 #include "linear/free_matrix.hpp"
 #include "system/integrator.hpp"
@@ -16,15 +17,20 @@ namespace gneiss {
 class StageNewton {
 public:
     struct Options {
-        double tolerance = 1e-9;          ///< force out of balance over the largest force, (0, 0.01]
-        int most_iterations = 20;         ///< >= 1
-        LinearSolverOptions solver = {};  ///< of the linear systems
+        double tolerance = scheme_defaults::tolerance;  ///< force out of balance over the largest force, (0, 0.01]
+        int most_iterations = scheme_defaults::newton_iterations;  ///< >= 1
+        LinearSolverOptions solver = {};                           ///< of the linear systems
 
         /// Adds what is wrong, under "integrator.".
         void check(std::vector<Problem>& problems) const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     struct Counts {
-        std::size_t evaluations = 0, iterations = 0, factorisations = 0;
+        std::size_t evaluations = 0;  ///< of all forces, by the scheme
+        std::size_t starts = 0;       ///< those in states that starts begin from
+        std::size_t balance = 0;      ///< those for energies and reactions alone
+        std::size_t iterations = 0, factorisations = 0;
     };
     /// What a scheme says of a stage; u and v of supports are there already.
     struct Stage {
@@ -50,13 +56,22 @@ public:
     /// @param[in,out] a  accelerations sought, a guess before
     /// @throws RecoverableError
     void solve(const SemiDiscrete& system, const State& accepted, const Stage& stage, std::span<double> a);
+    /// All forces at the stage that solve() has found, N, shape (n_dof), without C v; empty where its last iteration
+    /// has moved on, by round-off, from where it had evaluated them.
+    std::span<const double> forces() const { return solved_f_; }
 
     /// No matrix is kept from here on.
     void drop_matrix() { factorised_dt_ = 0; }
     void forget();
 
     Counts& counts() { return counts_; }
-    WorkCounts work() const { return {counts_.factorisations, counts_.factorisations, counts_.iterations}; }
+    WorkCounts work() const {
+        return {.jacobians = counts_.factorisations,
+                .factorisations = counts_.factorisations,
+                .iterations = counts_.iterations,
+                .balance = counts_.balance,
+                .starts = counts_.starts};
+    }
     const Counts& counts() const { return counts_; }
     /// Of matrices and factors, as far as the pattern tells.
     double bytes() const;
@@ -73,6 +88,7 @@ private:
     std::unique_ptr<BorderedSolver> solver_;
     double factorised_dt_ = 0;  ///< Stage::matrix_dt of the matrix at hand; 0: none
     std::vector<double> f_, residual_, change_, full_values_, values_;
+    std::vector<double> solved_f_;
 };
 
 }  // namespace gneiss

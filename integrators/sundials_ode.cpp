@@ -49,8 +49,8 @@ void SundialsOde::allocate(const SemiDiscrete& system) {
     }
     f_.assign(layout.n_dof, 0.0);
     z_.assign(layout.n_internal, 0.0);
-    for (auto* values : {&reactions_before_, &reactions_middle_, &reactions_})
-        values->assign(system.constraints().size(), 0.0);
+    for (Reactions* reactions : {&before_, &middle_reactions_, &after_})
+        reactions->forces.assign(system.constraints().size(), 0.0);
 }
 
 void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason why) {
@@ -61,8 +61,10 @@ void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason wh
         counts_ = {};
     }
     if (anew) allocate(system);
-    form_.motion().hold(system, state, why);
-    scales_.start(system, state, omega_, form_.motion().velocity());
+    form_.forget_forces();
+    after_.known = start_counted_ = false;
+    counts_.starts += form_.motion().hold(system, state, why);
+    counts_.starts += scales_.start(system, state, omega_, form_.motion().velocity());
     begin(system, state);
     if (anew) {
         create(state.t);
@@ -72,9 +74,6 @@ void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason wh
         restart(state.t);
     }
     failed_before_ = 0;
-    system.force(state, FirstOrderForm::trial_of(state, state.last_event), f_);
-    form_.motion().evaluate(system, state.t);
-    form_.motion().reactions(system, state.v, f_, reactions_);
 }
 
 void SundialsOde::begin(const SemiDiscrete& system, const State& state) {
@@ -90,7 +89,7 @@ StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double
     guard_.forget();
     if (newton_) newton_->guard().forget();
     form_.motion().step_from(system, state);
-    const std::size_t rates_before = counts_.rates;
+    const std::size_t rates_before = counts().rates;
     double dt = 0;
     if (fixed_step() > 0) {
         constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
@@ -118,63 +117,121 @@ StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double
     report.dt = last_step();
     report.n_rejected = failed_trials() - failed_before_;
     failed_before_ += report.n_rejected;
-    report.n_force = counts_.rates - rates_before;
+    report.n_force = counts().rates - rates_before;
     return report;
 }
 
 void SundialsOde::finish_step(const SemiDiscrete& system, const State& state) {
     form_.unpack(system, next_.t, values_of(y_.get()), next_);
-    reactions_before_.swap(reactions_);
-    evaluate(system, state, next_, reactions_);
-    add_path_energies(system, state, reactions_before_, next_, reactions_);
+    std::swap(before_, after_);
+    after_.known = false;
+    if (next_.history.empty()) {
+        take_reactions(system, next_, after_);
+    } else {
+        update_history(system, state, next_, after_);
+        ++counts_.rates;  // what is remembered is the scheme's own
+    }
+    add_path_energies(system, state, before_, next_, after_);
 }
 
-void SundialsOde::evaluate(const SemiDiscrete& system, const State& from, State& to, std::vector<double>& reactions) {
-    if (to.history.empty())
-        system.force(from, FirstOrderForm::trial_of(to, to.last_event), f_);
-    else
-        system.force_and_update(from, {to.t, to.last_event, to.u, to.v, {}}, f_, z_, to.history);
-    ++counts_.rates;
-    form_.motion().reactions(system, to.v, f_, reactions);
+void SundialsOde::update_history(const SemiDiscrete& system, const State& from, State& to, Reactions& reactions) {
+    system.force_and_update(from, {to.t, to.last_event, to.u, to.v, {}}, f_, z_, to.history);
+    form_.motion().reactions(system, to.v, f_, reactions.forces);
+    reactions.known = true;
+}
+
+void SundialsOde::take_reactions(const SemiDiscrete& system, const State& at, Reactions& reactions) {
+    const auto forces = form_.forces_at(at.t, values_of(y_.get()));
+    reactions.known = system.constraints().empty() || !forces.empty();
+    if (forces.empty()) return;
+    form_.motion().evaluate(system, at.t);
+    form_.motion().reactions(system, at.v, forces, reactions.forces);
+}
+
+void SundialsOde::find_reactions(const SemiDiscrete& system, const State& accepted, const State& at,
+                                 Reactions& reactions) {
+    if (!reactions.known) {
+        system.force(accepted, FirstOrderForm::trial_of(at, at.last_event), f_);
+        ++counts_.balance;
+        form_.motion().evaluate(system, at.t);
+        form_.motion().reactions(system, at.v, f_, reactions.forces);
+    }
+    reactions.known = true;
+}
+
+std::span<const double> SundialsOde::reactions(const SemiDiscrete& system, const State& state) {
+    if (!after_.known) take_reactions(system, state, after_);
+    find_reactions(system, state, state, after_);
+    return after_.forces;
+}
+
+void SundialsOde::find_within(const SemiDiscrete& system, double t, State& at) {
+    in_dense_output_ = true;
+    const int flag = dense(t, middle_y_.get());
+    in_dense_output_ = false;
+    check(flag, "dense output");
+    form_.unpack(system, t, values_of(middle_y_.get()), at);
 }
 
 void SundialsOde::state_within(const SemiDiscrete& system, double t, State& at, std::vector<double>& reactions) {
     const State& from = next_;  // where the last step began
     const State* const accepted = std::exchange(accepted_, &from);
-    const Counts counts = counts_;  // what output evaluates is no work of the scheme
     at = from;
-    at.t = t;
-    check(dense(t, middle_y_.get()), "dense output");
-    form_.unpack(system, t, values_of(middle_y_.get()), at);
-    reactions.resize(reactions_.size());
-    evaluate(system, from, at, reactions);
-    add_path_energies(system, from, reactions_before_, at, reactions);
-    counts_ = counts;
+    find_within(system, t, at);
+    Reactions there{std::move(reactions)};
+    there.forces.resize(after_.forces.size());
+    if (at.history.empty()) {
+        there.known = system.constraints().empty();
+        find_reactions(system, from, at, there);
+    } else {
+        update_history(system, from, at, there);
+        ++counts_.balance;
+    }
+    add_path_energies(system, from, before_, at, there);
+    reactions = std::move(there.forces);
     accepted_ = accepted;
 }
 
-/// The trapezoidal rule over the step and over its halves, extrapolated: order 4, so that the ledger does not hide what
-/// a scheme of high order conserves.
-void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& from, std::span<const double> before,
-                                    State& to, std::span<const double> after) {
-    system.add_path_energies(from, to);
-    add_support_work(system, before, after, from, to);
-    PathEnergies whole = to.path;
-
+void SundialsOde::find_middle(const SemiDiscrete& system, const State& from, const State& to) {
     middle_.t = 0.5 * (from.t + to.t);
     middle_.last_event = to.last_event;
-    check(dense(middle_.t, middle_y_.get()), "dense output");
-    form_.unpack(system, middle_.t, values_of(middle_y_.get()), middle_);
     middle_.history = from.history;
-    system.add_path_energies(from, middle_);
-    if (!system.constraints().empty()) {
-        system.force(from, FirstOrderForm::trial_of(middle_, middle_.last_event), f_);
-        ++counts_.rates;
-        form_.motion().reactions(system, middle_.v, f_, reactions_middle_);
-        add_support_work(system, before, reactions_middle_, from, middle_);
+    if (dense_output_is_free() || !to.z.empty()) {
+        find_within(system, middle_.t, middle_);
+        return;
     }
+    // the cubic that has u and v at both ends, of order 4 in its middle, as the rule for energies is
+    const double h = to.t - from.t;
+    for (std::size_t i = 0; i < middle_.u.size(); ++i) {
+        middle_.u[i] = 0.5 * (from.u[i] + to.u[i]) + 0.125 * h * (from.v[i] - to.v[i]);
+        middle_.v[i] = 1.5 * (to.u[i] - from.u[i]) / h - 0.25 * (from.v[i] + to.v[i]);
+    }
+    form_.motion().evaluate(system, middle_.t);
+    form_.motion().put(system, middle_.u, middle_.v);
+}
+
+/// The trapezoidal rule over the step and over its halves, extrapolated: order 4, so that the ledger does not hide what
+/// a scheme of high order conserves. Supports that rest do no work: reactions matter only where they move.
+void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& from, Reactions& before, State& to,
+                                    Reactions& after) {
+    find_middle(system, from, to);
+    middle_reactions_.known = false;
+    const bool supports_move = std::ranges::any_of(system.constraints(), [&](const Constraint& support) {
+        return middle_.u[support.dof] != from.u[support.dof] || to.u[support.dof] != from.u[support.dof];
+    });
+    if (supports_move) {
+        find_reactions(system, from, from, before);
+        find_reactions(system, from, middle_, middle_reactions_);
+        find_reactions(system, from, to, after);
+    }
+    system.add_path_energies(from, to);
+    add_support_work(system, before.forces, after.forces, from, to);
+    PathEnergies whole = to.path;
+
+    system.add_path_energies(from, middle_);
+    add_support_work(system, before.forces, middle_reactions_.forces, from, middle_);
     system.add_path_energies(middle_, to);
-    add_support_work(system, reactions_middle_, after, middle_, to);
+    add_support_work(system, middle_reactions_.forces, after.forces, middle_, to);
     const double power = to.path.viscous_power;
     const auto halves = to.path.members(), once = whole.members();
     for (std::size_t k = 0; k < halves.size(); ++k) *halves[k] += (*halves[k] - *once[k]) / 3;
@@ -202,10 +259,37 @@ SundialsOde::Counts SundialsOde::counts() const {
     return counts;
 }
 
+WorkCounts SundialsOde::work() const {
+    const Counts all = counts();
+    return {.jacobians = all.linearisations,
+            .factorisations = all.factorisations,
+            .iterations = all.solves,
+            .interactions = all.interaction_rates,
+            .balance = all.balance,
+            .starts = all.starts};
+}
+
+void SundialsOde::count(double t, std::span<const double> y, FirstOrderForm::Part part) {
+    using Part = FirstOrderForm::Part;
+    if (part == Part::external) return;
+    if (part == Part::interactions) {
+        ++counts_.interaction_rates;
+        return;
+    }
+    if (in_dense_output_) {
+        ++counts_.balance;
+        return;
+    }
+    const bool first = !std::exchange(start_counted_, true);
+    const bool at_start = first && t == accepted_->t && std::ranges::equal(y, values_of(y_.get()));
+    ++(at_start ? counts_.starts : counts_.rates);
+}
+
 int SundialsOde::rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector dydt) {
     return guard_([&] {
-        ++(part == FirstOrderForm::Part::interactions ? counts_.interaction_rates : counts_.rates);
-        form_.rate(*system_, *accepted_, t, values_of(y), part, values_of(dydt));
+        if (form_.repeat(*accepted_, t, values_of(y), part, values_of(dydt))) return;
+        count(t, values_of(y), part);
+        form_.rate(*system_, *accepted_, t, values_of(y), part, values_of(dydt), !in_dense_output_);
     });
 }
 

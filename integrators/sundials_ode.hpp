@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/first_order_form.hpp"
 #include "integrators/newton_system.hpp"
 #include "integrators/problem_scales.hpp"
@@ -19,23 +20,29 @@ namespace gneiss {
 class SundialsOde : public Integrator {
 public:
     struct Options {
-        double rtol = 1e-6;           ///< local error over the scale of its kind, root mean square, (0, 0.1]
-        ProblemScales::Given scales;  ///< magnitudes to measure errors against; 0: from the problem
-        double longest = 0;           ///< longest step, s; 0: no limit
-        LinearSolverOptions solver;   ///< of the linear systems
+        double rtol = scheme_defaults::rtol;  ///< local error over the scale of its kind, root mean square, (0, 0.1]
+        ProblemScales::Given scales;          ///< magnitudes to measure errors against; 0: from the problem
+        double longest = 0;                   ///< longest step, s; 0: no limit
+        LinearSolverOptions solver;           ///< of the linear systems
 
         /// Adds what is wrong, under "integrator.".
         void check(std::vector<Problem>& problems) const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
     struct Counts {
-        std::size_t steps = 0, rates = 0, rejected = 0;
-        std::size_t interaction_rates = 0;  ///< of interactions alone, which `rates` leaves out
+        std::size_t steps = 0, rejected = 0;
+        std::size_t rates = 0;              ///< evaluations of all forces by the scheme
+        std::size_t starts = 0;             ///< those in states that starts begin from
+        std::size_t balance = 0;            ///< those for energies and reactions alone
+        std::size_t interaction_rates = 0;  ///< of interactions alone
         std::size_t linearisations = 0, factorisations = 0, solves = 0;
 
         void add(const NewtonSystem::Counts& more) {
             linearisations += more.linearisations;
             factorisations += more.factorisations;
             solves += more.solves;
+            rates += more.evaluations;
         }
     };
 
@@ -44,11 +51,8 @@ public:
     bool interpolates() const override { return true; }
     void state_within(const SemiDiscrete& system, double t, State& at, std::vector<double>& reactions) final;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const final;
-    std::span<const double> reactions() const final { return reactions_; }
-    WorkCounts work() const final {
-        const Counts all = counts();
-        return {all.linearisations, all.factorisations, all.solves, all.interaction_rates};
-    }
+    std::span<const double> reactions(const SemiDiscrete& system, const State& state) final;
+    WorkCounts work() const final;
     double matrix_bytes() const final { return newton_ ? newton_->bytes() : 0; }
     IntegratorMemory save() const final;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) final;
@@ -74,6 +78,8 @@ protected:
     virtual int step(double dt, double t_stop, double& t) = 0;
     /// The solution at a time within the last step, into `at`.
     virtual int dense(double t, N_Vector at) = 0;
+    /// Whether dense() evaluates no forces.
+    virtual bool dense_output_is_free() const { return true; }
     virtual double last_step() = 0;
     /// Failed trials of the solver since it was created or restarted.
     virtual std::size_t failed_trials() = 0;
@@ -107,11 +113,26 @@ protected:
 private:
     void allocate(const SemiDiscrete& system);
     void begin(const SemiDiscrete& system, const State& state);
+    /// Counts an evaluation of a part of F(t, y) that a scheme asks for.
+    void count(double t, std::span<const double> y, FirstOrderForm::Part part);
     void finish_step(const SemiDiscrete& system, const State& state);
-    /// f_ at a state within a step, its history and the forces of its supports.
-    void evaluate(const SemiDiscrete& system, const State& from, State& to, std::vector<double>& reactions);
-    void add_path_energies(const SemiDiscrete& system, const State& from, std::span<const double> before, State& to,
-                           std::span<const double> after);
+    /// Forces of supports, N, shape (constraints).
+    struct Reactions {
+        std::vector<double> forces;
+        bool known = false;  ///< found in the state that they belong to
+    };
+    /// History at the end of a step, or within it, and reactions there.
+    void update_history(const SemiDiscrete& system, const State& from, State& to, Reactions& reactions);
+    /// Those in a state whose y is y(), if the scheme has left the forces there.
+    void take_reactions(const SemiDiscrete& system, const State& at, Reactions& reactions);
+    /// Evaluates forces in a state for reactions alone, unless they are known.
+    void find_reactions(const SemiDiscrete& system, const State& accepted, const State& at, Reactions& reactions);
+    /// u, v, z at a time within the last step.
+    void find_within(const SemiDiscrete& system, double t, State& at);
+    /// middle_ of two states of the last step.
+    void find_middle(const SemiDiscrete& system, const State& from, const State& to);
+    void add_path_energies(const SemiDiscrete& system, const State& from, Reactions& before, State& to,
+                           Reactions& after);
 
     Options options_;
     bool needs_newton_;
@@ -125,7 +146,9 @@ private:
     State next_, middle_;
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     std::vector<double> f_, z_;
-    std::vector<double> reactions_before_, reactions_middle_, reactions_;
+    Reactions before_, middle_reactions_, after_;  ///< where the last step began, in its middle, where it ended
+    bool start_counted_ = false;                   ///< the scheme has evaluated F since it started
+    bool in_dense_output_ = false;
     CallbackGuard guard_;
     Counts counts_;
     std::size_t failed_before_ = 0;

@@ -140,8 +140,12 @@ void Verlet::position_form(const SemiDiscrete& system, const State& accepted, co
     std::ranges::copy(middle_.z, to.z.begin());
     std::ranges::copy(middle_.history, to.history.begin());
     reactions_before_.swap(reactions_new_);
-    if (look_at_ends || (last && !(to.z.empty() && to.history.empty() && constraints.empty()))) {
-        evaluate(system, middle_, Trial::of(to), to);
+    const bool remembers = look_at_ends || (last && !to.history.empty());
+    if (remembers || (last && !constraints.empty())) {
+        if (remembers)
+            evaluate(system, middle_, Trial::of(to), to);
+        else
+            evaluate_for_balance(system, middle_, Trial::of(to), to);
         motion_.evaluate(system, to.t);
         motion_.reactions(system, to.v, f_, reactions_new_);
     }

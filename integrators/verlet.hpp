@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "integrators/explicit_sub_steps.hpp"
 
 namespace gneiss {
@@ -43,10 +44,12 @@ public:
     struct Options {
         StableStep::Options step;
         Form form = Form::velocity;
-        std::string composition = "single";
+        std::string composition = scheme_defaults::composition;
 
         /// @throws InputError
         void validate() const;
+
+        friend bool operator==(const Options&, const Options&) = default;
     };
 
     explicit Verlet(const Options& options);

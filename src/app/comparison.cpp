@@ -94,6 +94,9 @@ ComparedRun read_run(const fs::path& folder) {
     run.steps = work.at("steps");
     run.rejected = work.at("rejected");
     run.force_evaluations = work.at("force_evaluations");
+    run.start_evaluations = work.at("start_evaluations");
+    run.balance_evaluations = work.at("balance_evaluations");
+    run.event_search_evaluations = work.at("event_search_evaluations");
     run.jacobians = work.at("jacobians");
     run.factorisations = work.at("factorisations");
     run.iterations = work.at("iterations");
@@ -166,6 +169,9 @@ std::vector<std::string> comparison_header() {
             "steps",
             "rejected",
             "force_evaluations",
+            "start_evaluations",
+            "balance_evaluations",
+            "event_search_evaluations",
             "jacobians",
             "factorisations",
             "iterations",
@@ -193,6 +199,9 @@ std::vector<std::string> comparison_row(const ComparedRun& run, bool rounded) {
             fmt::format("{}", run.steps),
             fmt::format("{}", run.rejected),
             fmt::format("{}", run.force_evaluations),
+            fmt::format("{}", run.start_evaluations),
+            fmt::format("{}", run.balance_evaluations),
+            fmt::format("{}", run.event_search_evaluations),
             fmt::format("{}", run.jacobians),
             fmt::format("{}", run.factorisations),
             fmt::format("{}", run.iterations),

@@ -48,7 +48,9 @@ struct ComparedRun {
     std::optional<StateErrors> reference_error;  ///< what the reference is worth: how far it is from its own check
     double energy_error = 0;  ///< largest energy left over, over the largest entry that the ledger ever had
     double energy_drift = 0;  ///< the same of what is left over at the end, signed
-    std::size_t steps = 0, rejected = 0, force_evaluations = 0, jacobians = 0, factorisations = 0, iterations = 0;
+    std::size_t steps = 0, rejected = 0, jacobians = 0, factorisations = 0, iterations = 0;
+    std::size_t force_evaluations = 0;  ///< of the scheme itself; those beside them:
+    std::size_t start_evaluations = 0, balance_evaluations = 0, event_search_evaluations = 0;
     double wall_time = 0;  ///< of stepping, s
     RunHistory history;
 

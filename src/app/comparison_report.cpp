@@ -54,7 +54,9 @@ std::string comparison_report(const std::string& title, const std::string& refer
         "Errors are relative to {} An error is the largest difference of the states that were compared, over "
         "the largest value, both "
         "in the root mean square over the area. Processor time is that of the whole process, all threads, "
-        "output included.",
+        "output included. Force evaluations are those of the scheme itself; those in the states that starts begin "
+        "from, for the energy balance and reactions, and of steps that a search for an event threw away "
+        "stand in columns of their own.",
         reference));
     if (!worth.empty()) page.paragraph(worth);
     page.heading("Runs");
@@ -69,6 +71,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
 
     page.heading("Work and precision");
     const Number of_time = [](const ComparedRun& run) { return run.cost.cpu_time; };
+    // of the scheme alone: what the balance takes beside it is no part of a method
     const Number of_forces = [](const ComparedRun& run) { return static_cast<double>(run.force_evaluations); };
     const auto chart = [&](const char* what, const Number& cost, const char* label, const Number& error) {
         page.figure(svg_chart(fmt::format("Error of {} against {}", what, label), {label, true},
@@ -78,7 +81,7 @@ std::string comparison_report(const std::string& title, const std::string& refer
     const Number displacement = [](const ComparedRun& run) { return run.errors->displacement.value_or(0); };
     const Number stress = [](const ComparedRun& run) { return run.errors->stress.value_or(0); };
     chart("displacement", of_time, "processor time, s", displacement);
-    chart("displacement", of_forces, "force evaluations", displacement);
+    chart("displacement", of_forces, "force evaluations of the scheme", displacement);
     chart("stress", of_time, "processor time, s", stress);
 
     page.heading("Histories");

@@ -80,6 +80,11 @@ private:
     void open_results();
     EnergyLedger ledger(const State& state) const;
     /// @param step  number of the step that the state belongs to
+    /// Of the supports in state_, N; none where nobody asks for them.
+    std::span<const double> reactions() {
+        if (!reactions_file_) return {};
+        return case_.integrator->reactions(*case_.system, state_);
+    }
     void write_rows(const State& state, std::size_t step, double dt, std::span<const double> reactions);
     void judge_balance(double t, const EnergyLedger& energies);
     void begin();
@@ -119,7 +124,7 @@ private:
     State state_;
     RunProgress progress_;
     std::size_t first_step_ = 0;  ///< of this part of the run
-    std::size_t n_rejected_ = 0, n_force_ = 0;
+    std::size_t n_rejected_ = 0, n_force_ = 0, n_force_searching_ = 0;
     double last_dt_ = 0, balance_error_ = 0;
     double t_looked_at_ = 0;  ///< where the last step ended, s
     State within_;            ///< of rows within a step
@@ -241,7 +246,7 @@ void Run::begin() {
     if (!resumed_) {
         const EnergyLedger at_start = ledger(state_);
         progress_.initial_energy = at_start.kinetic + at_start.stored.sum();
-        write_rows(state_, progress_.step, 0, case_.integrator->reactions());
+        write_rows(state_, progress_.step, 0, reactions());
         write_frame();
     }
     log_->info("start: t = {:.9g}, t_end = {:.9g}", state_.t, case_.options.run.t_end);
@@ -304,12 +309,12 @@ bool Run::after_step(const StepReport& step) {
     progress_.step += step.n_steps;
     n_rejected_ += step.n_rejected;
     n_force_ += step.n_force;
+    n_force_searching_ += step.n_force_searching;
     last_dt_ = step.dt;
     t_looked_at_ = step.t;
     if (!step.warning.empty()) warn(step.warning);
     if (steps_file_) steps_file_->row(step_row(step), {step.rejected});
-    if (schedule_->row_due(step) && !unbalanced_)
-        write_rows(state_, progress_.step, step.dt, case_.integrator->reactions());
+    if (schedule_->row_due(step) && !unbalanced_) write_rows(state_, progress_.step, step.dt, reactions());
     if (unbalanced_) return false;
     if (schedule_->frame_due(step)) write_frame();
     if (states_ && schedule_->state_due(step)) states_->add(*case_.system, state_);
@@ -340,10 +345,10 @@ ProgressState Run::progress_state() const {
 }
 
 void Run::write_summary_file(RunStatus status, const std::string& message) {
-    RunSummary summary =
-        summarise(case_, fs::absolute(arguments_.deck).string(), arguments_.set,
-                  {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, setup_time_,
-                   seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance)});
+    RunSummary summary = summarise(
+        case_, fs::absolute(arguments_.deck).string(), arguments_.set,
+        {state_, last_dt_, progress_.step, first_step_, n_rejected_, n_force_, n_force_searching_, setup_time_,
+         seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance)});
     summary.status = status;
     summary.message = message;
     summary.warnings = warnings_;
@@ -401,8 +406,7 @@ int Run::end_failed(const std::exception& error) {
             log_->error("{}", again.what());
             integrator_stands_ = false;
         }
-        if (history_file_->last_time() != state_.t)
-            write_rows(state_, progress_.step, last_dt_, case_.integrator->reactions());
+        if (history_file_->last_time() != state_.t) write_rows(state_, progress_.step, last_dt_, reactions());
     }
     write_frame();
     return end(RunStatus::failed, message, exit_code::failed);

@@ -15,9 +15,12 @@ RunSummary summarise(const Case& built, const std::string& deck, const std::vect
                                 {"steps", now.step},
                                 {"threads", omp_get_max_threads()}};
     const WorkCounts work = built.integrator->work();
-    summary.groups["work"] = {{"steps", now.step - now.first_step},    {"rejected", now.n_rejected},
-                              {"force_evaluations", now.n_force},      {"jacobians", work.jacobians},
-                              {"factorisations", work.factorisations}, {"iterations", work.iterations}};
+    summary.groups["work"] = {
+        {"steps", now.step - now.first_step},  {"rejected", now.n_rejected},
+        {"force_evaluations", now.n_force},    {"start_evaluations", work.starts},
+        {"balance_evaluations", work.balance}, {"event_search_evaluations", now.n_force_searching},
+        {"jacobians", work.jacobians},         {"factorisations", work.factorisations},
+        {"iterations", work.iterations}};
     if (work.interactions > 0) summary.groups["work"]["interaction_evaluations"] = work.interactions;
     if (work.elements > 0) summary.groups["work"]["local_element_evaluations"] = work.elements;
     if (built.cracking != nullptr) {

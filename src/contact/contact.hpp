@@ -16,6 +16,7 @@
 #include "contact/contact_memory.hpp"
 #include "contact/pair_packs.hpp"
 #include "model/interaction.hpp"
+#include "model/options.hpp"
 
 namespace gneiss {
 
@@ -38,11 +39,12 @@ inline constexpr double overlap_tolerance = 1e-6;
 class Contact final : public Interaction {
 public:
     struct Options {
-        double thickness = 1;          ///< of the solid, m, > 0
-        double friction = 0;           ///< mu, >= 0
-        double restitution = 1;        ///< e, in (0, 1]
-        double tangential_factor = 1;  ///< tangential stiffness over the normal one, > 0
-        double skin = 0;               ///< m, > 0: pairs are searched again once a node has moved half of it
+        double thickness = SolidOptions().thickness;        ///< of the solid, m, > 0
+        double friction = ContactOptions().friction;        ///< mu, >= 0
+        double restitution = ContactOptions().restitution;  ///< e, in (0, 1]
+        double tangential_factor =
+            ContactOptions().tangential_factor;  ///< tangential stiffness over the normal one, > 0
+        double skin = 0;                         ///< m, > 0: pairs are searched again once a node has moved half of it
         /// Whether sides may fail later: what overlaps then is remembered, and pushed apart no further.
         bool comes_apart = false;
         /// @throws InputError

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/scheme_defaults.hpp"
 
 namespace gneiss {
 
@@ -82,10 +83,11 @@ std::unique_ptr<LinearSolver> make_umfpack();
 
 /// What is asked of a solver; a name is enough.
 struct LinearSolverOptions {
-    std::string solver = "automatic";           ///< see make_linear_solver()
-    std::string preconditioner = "incomplete";  ///< of pcg and gmres: "incomplete" (factorisation) or "diagonal"
-    double tolerance = 1e-8;                    ///< of pcg and gmres: residual over right side, (0, 0.1]
-    std::size_t most_iterations = 10000;        ///< of pcg and gmres in one solve, >= 1
+    std::string solver = scheme_defaults::solver;  ///< see make_linear_solver()
+    std::string preconditioner =
+        scheme_defaults::preconditioner;  ///< of pcg and gmres: "incomplete" (factorisation) or "diagonal"
+    double tolerance = scheme_defaults::linear_tolerance;  ///< of pcg and gmres: residual over right side, (0, 0.1]
+    std::size_t most_iterations = scheme_defaults::linear_iterations;  ///< of pcg and gmres in one solve, >= 1
 
     LinearSolverOptions() = default;
     LinearSolverOptions(std::string name) : solver(std::move(name)) {}  // NOLINT
@@ -96,6 +98,8 @@ struct LinearSolverOptions {
     void check(std::vector<Problem>& problems) const;
     /// Adds what does not go with matrices that are symmetric or not.
     void check_symmetry(bool symmetric, std::vector<Problem>& problems) const;
+
+    friend bool operator==(const LinearSolverOptions&, const LinearSolverOptions&) = default;
 };
 
 /// Conjugate gradients, by SUNDIALS, preconditioned with the diagonal or with L L^T of the matrix's own sparsity.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scheme_defaults.hpp"
 #include "materials/elastic_constants.hpp"
 #include "mesh/mesh_options.hpp"
 
@@ -222,34 +223,35 @@ struct InitialOptions {
 
 struct IntegratorOptions {
     std::string type = "central_difference";
-    double safety = 0.8;   ///< factor on the critical step, (0, 1]
+    double safety = scheme_defaults::safety;  ///< factor on the critical step, (0, 1]
     bool lanczos = false;  ///< bound by a Lanczos estimate of the assembled pencil instead of the elements
     double dt = 0;         ///< fixed step, s; 0: from the critical step, or from the error
     int levels = 1;        ///< central_difference: most lengths of local steps, >= 1
 
     // verlet, noh_bathe: Verlet::Options, NohBathe::Options
     bool position_form = false;
-    std::string composition = "single";
-    double split = 0.54;
+    std::string composition = scheme_defaults::composition;
+    double split = scheme_defaults::split;
 
     // generalized_alpha, newmark, hht_alpha: GeneralizedAlpha::Options; bathe, Bathe::Options, has rho_inf too
-    double rho_inf = 0.8, beta = 0.25, gamma = 0.5, alpha = 0.1;
+    double rho_inf = scheme_defaults::rho_inf, beta = scheme_defaults::beta, gamma = scheme_defaults::gamma,
+           alpha = scheme_defaults::alpha;
     bool adaptive = false;  ///< to rtol
 
     // cvode, arkode, mri, ida: Cvode::Options, Arkode::Options, Mri::Options, Ida::Options
-    bool adams = false, functional = false, stability_detection = false;
-    std::string table = "dormand_prince_7_4_5", slow_table = "mri_gark_erk33a";
+    bool adams = false, functional = false, stability_detection = scheme_defaults::stability_detection;
+    std::string table = scheme_defaults::table, slow_table = scheme_defaults::slow_table;
     int max_order = 0;
-    double rtol = 1e-6, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
+    double rtol = scheme_defaults::rtol, displacement_scale = 0, velocity_scale = 0, stress_scale = 0;
 
     // quasi_static, dynamic_relaxation: LoadStepping::Options
-    double tolerance = 1e-9, step = 0, longest = 0, shortest = 1e-6;
-    int most_iterations = 0;
+    double tolerance = scheme_defaults::tolerance, step = 0, longest = 0, shortest = scheme_defaults::shortest;
+    int most_iterations = 0;  ///< 0: the scheme's own, scheme_defaults::newton_iterations or relaxation_iterations
 
     // those that solve linear systems: LinearSolverOptions
-    std::string solver = "automatic", preconditioner = "incomplete";
-    double linear_tolerance = 1e-8;
-    int most_linear_iterations = 10000;
+    std::string solver = scheme_defaults::solver, preconditioner = scheme_defaults::preconditioner;
+    double linear_tolerance = scheme_defaults::linear_tolerance;
+    int most_linear_iterations = scheme_defaults::linear_iterations;
     bool matrix_free = false;  ///< quasi_static
 };
 

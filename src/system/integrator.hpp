@@ -23,14 +23,15 @@ enum class StartReason {
 
 /// What one accepted step was, or several of them taken in one go.
 struct StepReport {
-    double t = 0;                      ///< time reached, s
-    double dt = 0;                     ///< of the last step, s
-    std::size_t n_rejected = 0;        ///< trials thrown away on the way
-    std::size_t n_force = 0;           ///< force evaluations
-    std::size_t n_steps = 1;           ///< accepted steps, >= 1
-    std::vector<double> numbers = {};  ///< what Integrator::step_columns() names
-    std::string rejected = {};         ///< why the last trial thrown away was; empty: none was
-    std::string warning = {};          ///< what a user should know once
+    double t = 0;                       ///< time reached, s
+    double dt = 0;                      ///< of the last step, s
+    std::size_t n_rejected = 0;         ///< trials thrown away on the way
+    std::size_t n_force = 0;            ///< evaluations of all forces by the scheme itself, rejected trials included
+    std::size_t n_steps = 1;            ///< accepted steps, >= 1
+    std::vector<double> numbers = {};   ///< what Integrator::step_columns() names
+    std::string rejected = {};          ///< why the last trial thrown away was; empty: none was
+    std::string warning = {};           ///< what a user should know once
+    std::size_t n_force_searching = 0;  ///< those of steps that a search for an event has thrown away
 };
 
 /// A number that an integrator reports of each of its steps.
@@ -39,13 +40,15 @@ struct StepColumn {
     std::string unit = {};
 };
 
-/// What an integrator has done beside evaluating all forces, since it was made.
+/// What an integrator has done beside the evaluations that StepReport::n_force counts, since it was made.
 struct WorkCounts {
     std::size_t jacobians = 0;       ///< tangents assembled
     std::size_t factorisations = 0;  ///< of matrices
     std::size_t iterations = 0;      ///< of Newton's method: each solves a linear system
-    std::size_t interactions = 0;    ///< evaluations of joints and contact alone, which StepReport::n_force leaves out
-    std::size_t elements = 0;        ///< evaluations of single elements, which it leaves out too
+    std::size_t interactions = 0;    ///< evaluations of joints and contact alone
+    std::size_t elements = 0;        ///< evaluations of single elements
+    std::size_t balance = 0;         ///< evaluations of all forces for the energy balance and the reactions alone
+    std::size_t starts = 0;          ///< evaluations of all forces in the states that starts begin from
 };
 
 /// Where a step stands that takes many iterations.
@@ -77,7 +80,6 @@ public:
     virtual bool is_static() const { return false; }
     /// What it reports of each step beside StepReport's own members; empty: its steps are not worth a table.
     virtual std::vector<StepColumn> step_columns() const { return {}; }
-    /// Explicit schemes have nothing to count here.
     virtual WorkCounts work() const { return {}; }
     /// Matrices and their factors, bytes, as far as the pattern tells; once started.
     virtual double matrix_bytes() const { return 0; }
@@ -119,8 +121,10 @@ public:
 
     /// Kinetic energy in the measure in which this integrator's balance is sharpest, J; 1/2 v . M v where it starts.
     virtual double kinetic_energy(const SemiDiscrete& system, const State& state) const = 0;
-    /// Forces of supports on the constrained degrees of freedom at the last accepted state, N, shape (constraints).
-    virtual std::span<const double> reactions() const = 0;
+    /// Forces of supports on the constrained degrees of freedom, N, shape (constraints). Found when asked for where the
+    /// scheme itself has no use for them.
+    /// @param state  the last accepted one
+    virtual std::span<const double> reactions(const SemiDiscrete& system, const State& state) = 0;
 
     /// load() takes the place of start() when a run goes on from a checkpoint: the run then has the same bits as one
     /// that was never interrupted.

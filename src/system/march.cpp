@@ -56,18 +56,18 @@ public:
             crossed_.reset();
             return integrator_.advance(system_, state, stop);
         }
-        std::size_t n_rejected = 0, n_force = 0;
+        std::size_t n_rejected = 0, n_force = 0;  // of trials thrown away
         for (;;) {
             const State start = state;
             const IntegratorMemory memory = integrator_.save();
             const double way = crossed_ ? *crossed_ - start.t : 0;
             StepReport step = integrator_.advance(system_, state, crossed_ ? guess(start.t, before) : stop);
             step.n_rejected += n_rejected;
-            step.n_force += n_force;
             const double now = indicator_of(state);
             if (now <= allowed_ || is_short(start.t, state.t)) {
                 if (now >= 0 || (crossed_ && !(state.t < *crossed_))) crossed_.reset();
                 if (crossed_) slow_ = *crossed_ - state.t > 0.5 * way;
+                step.n_force_searching = n_force;
                 return step;
             }
             if (!crossed_) whole_ = state.t - start.t;
@@ -75,7 +75,7 @@ public:
             crossed_ = state.t;
             after_ = now;
             n_rejected = step.n_rejected + 1;
-            n_force = step.n_force;
+            n_force += step.n_force;
             state = start;
             integrator_.load(system_, state, memory);
         }

@@ -79,6 +79,8 @@ public:
         };
         return {std::sqrt(largest(model_.stiffness)), model_.viscosity.size() > 0 ? largest(model_.viscosity) : 0.0};
     }
+    /// How often all forces have been evaluated.
+    std::size_t n_evaluations() const { return n_evaluations_; }
     /// One force evaluation fails, once n have succeeded.
     void fail_after(int n) { until_failure_ = n; }
     /// Every force evaluation fails.
@@ -107,6 +109,7 @@ public:
     bool irreversible() const override { return model_.irreversible; }
 
     void force(const State& accepted, const Trial& trial, std::span<double> f) const override {
+        ++n_evaluations_;
         if (until_failure_-- == 0 || broken_) throw RecoverableError("told to fail");
         const Vector z = trial.z.empty() ? updated(accepted, trial) : vector(trial.z);
         const Vector force =
@@ -239,6 +242,7 @@ private:
     std::vector<double> mass_;
     std::vector<std::unique_ptr<Event>> events_;
     mutable int until_failure_ = -1;
+    mutable std::size_t n_evaluations_ = 0;
     bool broken_ = false;
     DenseTangent tangent_;
 };

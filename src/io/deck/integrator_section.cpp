@@ -1,5 +1,6 @@
 // The table [integrator]: every scheme's keys.
 
+#include "base/scheme_defaults.hpp"
 #include "io/deck/choices.hpp"
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
@@ -61,6 +62,9 @@ const Section<IntegratorOptions>& integrator_section() {
         iterative{{"solver", {"pcg", "gmres"}}},
         solved{
             {"type", {"quasi_static", "generalized_alpha", "newmark", "hht_alpha", "bathe", "cvode", "arkode", "ida"}}};
+    static const std::string usual_iterations =
+        fmt::format("in a step; 0: {} of Newton's method, {} of dynamic relaxation", scheme_defaults::newton_iterations,
+                    scheme_defaults::relaxation_iterations);
     static const Section<I> section{
         {choice("type", &I::type, integrators, {.meaning = "time integration scheme"}),
          number("safety", &I::safety,
@@ -142,9 +146,7 @@ const Section<IntegratorOptions>& integrator_section() {
                  .only_for = balanced,
                  .meaning = "largest force out of balance over the largest force of the step"}),
          integer("most_iterations", &I::most_iterations,
-                 {.range = at_least(0),
-                  .only_for = balanced,
-                  .meaning = "in a step; 0: 20 of Newton's method, 1000000 of dynamic relaxation"}),
+                 {.range = at_least(0), .only_for = balanced, .meaning = usual_iterations}),
          number("step", &I::step,
                 {.unit = "s",
                  .range = at_least(0),

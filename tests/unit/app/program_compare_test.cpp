@@ -53,6 +53,9 @@ TEST_F(ProgramCompare, Schemes_AreThoseOfSeparateRuns) {
     EXPECT_GT(fine, 1e-7) << "the reference is far closer";
     EXPECT_GT(runs[3].at("factorisations"), 0);
     EXPECT_EQ(runs[1].at("force_evaluations"), runs[1].at("steps"));
+    for (const auto& run : runs) EXPECT_GE(run.at("start_evaluations"), 1);
+    EXPECT_EQ(runs[1].at("balance_evaluations"), 0);
+    EXPECT_EQ(runs[1].at("event_search_evaluations"), 0);
     for (const auto& run : runs) {
         EXPECT_GT(run.at("cpu_time_s"), 0);
         EXPECT_GT(run.at("peak_memory_bytes"), 1e6);

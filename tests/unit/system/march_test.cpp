@@ -103,7 +103,7 @@ public:
         return report;
     }
     double kinetic_energy(const SemiDiscrete&, const State&) const override { return 0; }
-    std::span<const double> reactions() const override { return {}; }
+    std::span<const double> reactions(const SemiDiscrete&, const State&) override { return {}; }
     IntegratorMemory save() const override { return {{"t", {last_}}}; }
     void load(const SemiDiscrete&, State& state, const IntegratorMemory& memory) override {
         last_ = memory.at("t")[0];
@@ -295,12 +295,14 @@ private:
 class MarchToThreshold : public MarchOverTime, public testing::WithParamInterface<bool> {
 protected:
     std::vector<double> happened;
-    std::size_t n_rejected = 0, n_steps = 0;
+    std::size_t n_rejected = 0, n_steps = 0, n_force = 0, n_force_searching = 0;
     void watch(std::vector<double> instants) {
         system.list.push_back(std::make_unique<Threshold>(std::move(instants), GetParam(), happened));
         march.after_step = [this](const StepReport& step) {
             n_rejected += step.n_rejected;
             n_steps += step.n_steps;
+            n_force += step.n_force;
+            n_force_searching += step.n_force_searching;
             return true;
         };
     }
@@ -323,6 +325,9 @@ TEST_P(MarchToThreshold, WithATolerance_HappensWithinIt_NeverBefore) {
     EXPECT_GT(n_rejected, 3u);
     // halving takes log2(1/1e-6) = 20 steps for each
     EXPECT_LE(n_steps + n_rejected, 3u * 22 + 4);
+    // one evaluation to a step
+    EXPECT_EQ(n_force, n_steps);
+    EXPECT_EQ(n_force_searching, n_rejected);
     EXPECT_EQ(std::ranges::count_if(diary, [](const std::string& entry) { return entry.starts_with("step"); }),
               static_cast<std::ptrdiff_t>(n_steps + n_rejected));
 }
