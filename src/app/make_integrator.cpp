@@ -146,14 +146,15 @@ void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system)
     if (!problems.empty()) throw InputError(problems);
 }
 
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o, bool contact) {
     refuse_idle_keys(o);
     if (o.type == "central_difference") return std::make_unique<CentralDifference>(stable_step(o), o.levels);
     if (o.type == "verlet") return make_verlet(o);
     if (o.type == "noh_bathe") return std::make_unique<NohBathe>(NohBathe::Options{stable_step(o), o.split});
     if (o.type == "bathe") return make_bathe(o);
     if (o.type == "quasi_static")
-        return std::make_unique<QuasiStatic>(QuasiStatic::Options{load_steps(o), linear_solver(o), o.matrix_free});
+        return std::make_unique<QuasiStatic>(
+            QuasiStatic::Options{load_steps(o), linear_solver(o), o.matrix_free, contact});
     if (o.type == "dynamic_relaxation") return std::make_unique<DynamicRelaxation>(load_steps(o));
     if (is_alpha(o)) return make_alpha(o);
     if (o.type == "cvode") return make_cvode(o);
