@@ -73,6 +73,7 @@ QuasiStatic::QuasiStatic(const Options& options)
     : LoadStepping(checked(options), scheme_defaults::newton_iterations),
       solver_options_(options.solver),
       matrix_free_(options.matrix_free),
+      contact_(options.contact),
       kinsol_(nullptr, free_kinsol) {}
 QuasiStatic::~QuasiStatic() = default;
 
@@ -83,6 +84,11 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     const std::size_t n = tangent_->n();
     right_.assign(n, 0.0);
     if (n == 0) return;  // nothing to solve for
+    if (contact_) {
+        constexpr double part = 1e-9;  // of the stiffest motion: a million times softer than any that something holds
+        const double omega = system.frequency_bound(system.initial_state()).omega;
+        tangent_->brace(part * omega * omega);
+    }
     for (OwnedVector* vector : {&unknowns_, &unknown_scale_, &force_scale_}) *vector = new_vector(n, context_);
 
     kinsol_.reset(KINCreate(context_));
@@ -135,6 +141,11 @@ bool QuasiStatic::solve(const SemiDiscrete& system, const State& state) {
     if (tangent_->n() == 0) return true;
     const Tally tally{*tangent_, counts_};
     predict(system, state);
+    if (tangent_->braced())
+        warning_ = fmt::format(
+            "at load time t = {:.9g} s something hangs free that contact has not reached yet: until it does nothing "
+            "but what pushes it says where it goes",
+            state.t);
     const double before = largest_magnitude(f_);  // supports, and loads out of balance before the step
     tangent_->free().put(values_of(unknowns_.get()), next_.u);
     evaluate(system, state);

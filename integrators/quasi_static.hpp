@@ -20,6 +20,7 @@ public:
     struct Options : LoadStepping::Options {
         LinearSolverOptions solver = {};  ///< of the linear systems
         bool matrix_free = false;         ///< pcg and gmres: products with the tangent by differences of forces
+        bool contact = false;             ///< bodies may hang free until contact reaches them: StaticTangent::brace()
 
         friend bool operator==(const Options&, const Options&) = default;
     };
@@ -48,7 +49,7 @@ private:
     void predict(const SemiDiscrete& system, const State& state);
 
     LinearSolverOptions solver_options_;
-    bool matrix_free_;
+    bool matrix_free_, contact_;
     bool indefinite_ = false;  ///< the tangent of the last equilibrium
     std::vector<double> right_;
 

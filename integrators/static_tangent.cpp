@@ -33,6 +33,8 @@ public:
     }
 
     void linearise(const State& accepted, const Trial& trial) override {
+        accepted_ = &accepted;
+        trial_ = trial;
         tangent_.assemble(accepted, trial, {.stiffness = 1}, values_);
         beside_ = tangent_.beside(accepted, trial, {.stiffness = 1});
     }
@@ -41,8 +43,17 @@ public:
         free_.subtract_fixed(beside_, x_fixed, right);
     }
     void factorise() override {
+        braced_ = false;
         free_.take_values(values_, free_values());
-        solver_.factorise(free_values(), free_.take(beside_));
+        try {
+            solver_.factorise(free_values(), free_.take(beside_));
+        } catch (const SingularMatrix&) {
+            if (brace_ == 0) throw;
+            braced_ = true;
+            tangent_.assemble(*accepted_, trial_, {.mass = brace_, .stiffness = 1}, values_);
+            free_.take_values(values_, free_values());
+            solver_.factorise(free_values(), free_.take(beside_));
+        }
     }
     void forget() override { solver_.forget(); }
     void solve(std::span<const double> b, std::span<double> x) override { solver_.solve(b, x); }
@@ -61,6 +72,8 @@ private:
     std::span<double> free_values() { return {values_.data(), free_.pattern().n_nonzero()}; }
 
     const Tangent& tangent_;
+    const State* accepted_ = nullptr;
+    Trial trial_;                 ///< where K is taken
     std::vector<double> values_;  ///< of all degrees of freedom, or, once factorised, of the free ones in front
     LowRank beside_;              ///< of all degrees of freedom
     BorderedSolver solver_;

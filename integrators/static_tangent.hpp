@@ -29,6 +29,11 @@ public:
     virtual void subtract_fixed(std::span<const double> x_fixed, std::span<double> right) = 0;
     /// @throws SingularMatrix
     virtual void factorise() = 0;
+    /// From here on a matrix that is singular is held by this factor, 1/s2, times the mass: where bodies hang free
+    /// until contact reaches them. Iterations end where forces balance, whatever the matrix.
+    void brace(double factor) { brace_ = factor; }
+    /// Whether the matrix last factorised had to be.
+    bool braced() const { return braced_; }
     /// See LinearSolver::forget().
     virtual void forget() {}
     /// @param[out] x  shape (n); may be b itself
@@ -56,6 +61,8 @@ protected:
     StaticTangent(FreeMatrix free, SUNContext context);
 
     FreeMatrix free_;
+    double brace_ = 0;  ///< 1/s2; 0: singular matrices are refused
+    bool braced_ = false;
 
 private:
     OwnedMatrix matrix_;

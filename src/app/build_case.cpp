@@ -12,6 +12,7 @@
 #include "base/errors.hpp"
 #include "contact/make_contact.hpp"
 #include "fracture/cohesion.hpp"
+#include "fracture/initial_tractions.hpp"
 #include "mesh/make_mesh.hpp"
 #include "model/impedance.hpp"
 #include "model/initial_conditions.hpp"
@@ -20,6 +21,7 @@
 #include "model/make_blocks.hpp"
 #include "model/make_lumped.hpp"
 #include "model/rigid_motions.hpp"
+#include "model/stress_at_rest.hpp"
 
 namespace gneiss {
 namespace {
@@ -69,17 +71,38 @@ std::function<SolidSystem::Surroundings(const Mesh&)> surroundings_of(const Soli
         };
 }
 
-/// @throws InputError naming the rigid motions that no prescribed displacement or velocity holds
-void need_supports(const Mesh& mesh, const SolidSystem::Parts& parts) {
+/// @throws InputError naming the rigid motions that neither prescribed displacement or velocity nor contact holds
+/// @param contact, walls  null: none
+void need_supports(const CaseOptions& options, const Mesh& mesh, const SolidSystem::Parts& parts,
+                   const Contact* contact, const Walls* walls) {
     std::vector<std::array<std::int32_t, 2>> bonds;
     for (const auto& interaction : parts.interactions) {
+        if (interaction.get() == contact || interaction.get() == walls) continue;
         const auto more = interaction->couplings();
         bonds.insert(bonds.end(), more.begin(), more.end());
     }
-    const std::vector<FreePart> free = free_parts(mesh, parts.constraints.constraints(), bonds);
-    if (!free.empty())
-        throw InputError("[[boundary]]",
-                         "too few supports for a static solution, which leaves free " + describe(free, mesh));
+    std::vector<Touch> touches;
+    const auto add = [&](const std::vector<ContactPlace>& places, bool rough) {
+        for (const ContactPlace& place : places)
+            touches.push_back({place.node, place.other, place.at, {place.normal.x, place.normal.y}, rough});
+    };
+    if (contact != nullptr)
+        add(contact->places(std::vector<double>(2 * mesh.n_nodes(), 0.0)), options.contact.friction > 0);
+    if (walls != nullptr)
+        add(walls->places(), options.contact.friction > 0 || std::ranges::any_of(options.walls, [](const auto& wall) {
+                                 return wall.friction.value_or(0) > 0;
+                             }));
+    const std::vector<FreePart> free = free_parts(mesh, parts.constraints.constraints(), bonds, touches);
+    if (free.empty()) return;
+    std::string message = "too few supports for a static solution, which leaves free " + describe(free, mesh);
+    if (contact != nullptr)
+        message += fmt::format(
+            "; contact holds along its normal, with friction along the face too, what is at most contact.skin, {:.3g} "
+            "m, "
+            "away: hold the rest by a [[boundary]], close wider gaps in the mesh, or let it find its place under a "
+            "dynamic integrator",
+            contact->options().skin);
+    throw InputError("[[boundary]]", message);
 }
 
 /// @throws InputError where a gas ends at a plane of symmetry that nothing holds its wall to
@@ -234,7 +257,7 @@ Case build_case(CaseOptions options) {
         });
     std::vector<std::unique_ptr<Interaction>> contacts;
     const Contact* contact = nullptr;
-    const Walls* walls = nullptr;
+    Walls* walls = nullptr;
     if (options.contact.method != ContactOptions::Method::none && !parts.blocks.empty())
         collect(problems, [&] {
             const auto original_of = built.inner ? built.inner->original_of() : std::span<const std::int32_t>{};
@@ -248,7 +271,7 @@ Case build_case(CaseOptions options) {
             contacts.push_back(std::move(made));
         });
     parts.damping.mass_proportional = options.run.mass_damping;
-    collect(problems, [&] { built.integrator = make_integrator(options.integrator); });
+    collect(problems, [&] { built.integrator = make_integrator(options.integrator, contact != nullptr); });
     collect(problems, [&] { need_interactions(options); });
     collect(problems, [&] { built.probes = ProbeTable(*built.mesh, options.output.probes); });
     if (!problems.empty()) throw InputError(problems);
@@ -256,7 +279,7 @@ Case build_case(CaseOptions options) {
     for (auto& one : contacts) parts.interactions.push_back(std::move(one));
     if (built.integrator->is_static()) {
         need_static_models(options);
-        need_supports(*built.mesh, parts);
+        need_supports(options, *built.mesh, parts, contact, walls);
     }
 
     if (!cracks && std::ranges::any_of(options.materials, [](const auto& m) { return m.strength.has_value(); }))
@@ -270,6 +293,17 @@ Case build_case(CaseOptions options) {
         for (const std::string& warning : warnings_of_statics(options)) built.warnings.push_back(warning);
     Joints* const cohesion = cracks ? static_cast<Joints*>(parts.interactions.front().get()) : nullptr;
     built.system = std::make_unique<SolidSystem>(*built.mesh, std::move(parts));
+    const bool stressed = std::ranges::any_of(options.materials, [](const MaterialOptions& material) {
+        return !std::ranges::all_of(material.in_situ_stress, &Formula::is_zero);
+    });
+    if (stressed) {
+        const auto stress = stress_at_rest(*built.system);
+        if (walls != nullptr) walls->preload(stress);
+        if (cohesion != nullptr && !extrinsic)
+            if (const std::size_t n = preload_joints(*cohesion, *built.inner, *built.system, stress); n > 0)
+                built.warnings.push_back(
+                    fmt::format("in_situ_stress: {} ends of joints start beyond their strength, and fail at once", n));
+    }
     if (cohesion != nullptr) {
         Cracking::Parts parts_of_cracking{.mesh = *built.mesh,
                                           .inner = *built.inner,

@@ -32,13 +32,17 @@ void check_linear_solver(const IntegratorOptions& o, const SemiDiscrete& system)
     if (!problems.empty()) throw InputError(problems);
 }
 
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o) {
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& o, bool contact) {
     if (o.type == "central_difference")
         return std::make_unique<CentralDifference>(options_of<CentralDifference>(o), o.levels);
     if (o.type == "verlet") return made<Verlet>(o);
     if (o.type == "noh_bathe") return made<NohBathe>(o);
     if (o.type == "bathe") return made<Bathe>(o);
-    if (o.type == "quasi_static") return made<QuasiStatic>(o);
+    if (o.type == "quasi_static") {
+        auto options = options_of<QuasiStatic>(o);
+        options.contact = contact;
+        return std::make_unique<QuasiStatic>(options);
+    }
     if (o.type == "dynamic_relaxation") return made<DynamicRelaxation>(o);
     if (is_alpha(o)) return made<GeneralizedAlpha>(o);
     if (o.type == "cvode") return made<Cvode>(o);

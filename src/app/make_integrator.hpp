@@ -8,8 +8,9 @@
 
 namespace gneiss {
 
+/// @param contact  whether bodies may be held by contact alone
 /// @throws InputError with every option out of its range, or without effect beside the others
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options);
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, bool contact = false);
 
 /// Whether it is explicit and takes its step from the stability bound where none is given.
 bool has_critical_step(const IntegratorOptions& options);

@@ -38,8 +38,8 @@ Contact::Contact(const PartedMesh& start, std::span<const double> layers, double
       remembers_(options.friction > 0 || options.restitution < 1 || options.comes_apart),
       bodies_(start, layers, cap) {
     options_.validate();
-    searched_.assign(2 * bodies_.n_nodes(), 0.0);
-    search();
+    take_constants();
+    search(std::vector<double>(2 * bodies_.n_nodes(), 0.0));
 }
 
 void Contact::initial_history(std::span<double> history) const {
@@ -48,16 +48,18 @@ void Contact::initial_history(std::span<double> history) const {
     Memory(history, bodies_.points().size()).free_all();
 }
 
-void Contact::search() {
+void Contact::search(std::span<const double> u) const {
     const auto reference = bodies_.reference();
     x_.resize(reference.size());
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = reference[i] + searched_[i];
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = reference[i] + u[i];
     search_.search({x_, bodies_.triangles(), &bodies_.points()}, options_.skin);
-    moved_ = 0;
     ++n_searches_;
     candidates_.assign(search_.candidates(), bodies_.triangles());
+    searched_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(x_.size()));
+}
 
-    if (!targets_.empty()) return;  // they are of this mesh
+void Contact::take_constants() {
+    targets_.clear();
     for (std::size_t t = 0; t < bodies_.triangles().size(); ++t) {
         const TrianglePotential& potential = bodies_.potential(t);
         targets_.push_back({potential.nodal, potential.bubble, potential.reach,
@@ -87,40 +89,47 @@ ContactResponse<double, double> Contact::alone(const ContactCandidate& pair, dou
                             ContactHistory<double>{});
 }
 
-double Contact::largest_motion(std::span<const double> u) const {
+double Contact::largest_motion(std::span<const double> u, std::span<const double> since) const {
     double largest = 0;  // squared
-    for (std::size_t i = 0; i < searched_.size(); i += 2) {
-        const double dx = u[i] - searched_[i], dy = u[i + 1] - searched_[i + 1];
+    for (std::size_t i = 0; i < since.size(); i += 2) {
+        const double dx = u[i] - since[i], dy = u[i + 1] - since[i + 1];
         const double way = dx * dx + dy * dy;
         largest = way <= largest ? largest : way;  // NaN stays
     }
     return std::sqrt(largest);
 }
 
+void Contact::search_if_stale(std::span<const double> u) const {
+    if (!(largest_motion(u, searched_) <= 0.5 * options_.skin)) search(u);
+}
+
 bool Contact::look(const State& accepted) {
+    if (!coupled_) return false;
     const auto u = bonded(accepted.u);
-    const double moved = largest_motion(u), way = std::max(0.0, moved - moved_);
+    const bool follows = looked_u_.size() == searched_.size();  // the mesh has not come apart since
+    const double way = largest_motion(u, follows ? looked_u_ : searched_);
     const double dt = accepted.t - looked_at_.value_or(accepted.t);
-    moved_ = moved;
+    looked_u_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(searched_.size()));
     looked_at_ = accepted.t;
     // The next step may be as long as any of the last ones, and go a little further.
     constexpr double forgotten = 0.05;  // a step
     longest_dt_ = std::max((1 - forgotten) * longest_dt_, dt);
     const double next = dt > 0 ? way * (longest_dt_ / dt) : way;
-    return moved + 2 * next > 0.5 * options_.skin && search_at(u);
+    return largest_motion(u, searched_) + 2 * next > 0.5 * options_.skin && search_at(u);
 }
 
 bool Contact::renew(const State& accepted) {
+    const auto u = bonded(accepted.u);
+    looked_u_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(searched_.size()));
     looked_at_ = accepted.t;
     longest_dt_ = 0;
-    return search_at(bonded(accepted.u));
+    return search_at(u);
 }
 
 /// @return whether the candidates have changed
 bool Contact::search_at(std::span<const double> u) {
-    std::ranges::copy(u.first(searched_.size()), searched_.begin());
     const std::vector<ContactCandidate> before = candidates_.pairs;
-    search();
+    search(u);
     return before != candidates_.pairs;
 }
 
@@ -141,9 +150,8 @@ void Contact::follow(const Parting& parting, const State& accepted, std::vector<
     }
     bodies_.follow(parting);
     const std::span<const double> u = bonded(accepted.u);
-    searched_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(2 * bodies_.n_nodes()));
-    targets_.clear();
-    search();
+    take_constants();
+    search(u);
     if (remembers_) {
         const ContactorPoints& points = bodies_.points();
         std::vector<double> now(Memory::size(points.size()), 0.0);
@@ -224,6 +232,7 @@ void Contact::held_by(const ContactCandidate& pair, std::vector<Held>& nodes) co
 std::vector<std::array<std::int32_t, 2>> Contact::couplings() const {
     std::vector<std::array<std::int32_t, 2>> all;
     std::vector<Held> nodes;
+    coupled_ = true;
     first_coupling_.clear();
     for (const ContactCandidate& pair : candidates_.pairs) {
         first_coupling_.push_back(all.size());
@@ -350,6 +359,30 @@ Gaps Contact::gaps(std::span<const double> u) const {
         if (!first) found->second = std::min(found->second, gap);
     }
     return gaps;
+}
+
+std::vector<ContactPlace> Contact::places(std::span<const double> u) const {
+    find_hits(bonded(u));
+    constexpr double inside = 1e-6;  // before the edge, not before one of its ends
+    std::vector<ContactPlace> all;
+    const auto at = [&](std::int32_t node) { return Vec2<double>{x_[2 * index(node)], x_[2 * index(node) + 1]}; };
+    for (const ContactCandidate& pair : candidates_.pairs) {
+        const auto& triangle = bodies_.triangles()[index(pair.triangle)];
+        const Vec2<double> p{point_x_[2 * index(pair.point)], point_x_[2 * index(pair.point) + 1]};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t from = triangle[(k + 1) % 3], to = triangle[(k + 2) % 3];
+            const std::array<double, 3>& potential = targets_[index(pair.triangle)].nodal;
+            if (potential[(k + 1) % 3] > 0 || potential[(k + 2) % 3] > 0) continue;  // no edge of the boundary
+            const Vec2<double> edge = at(to) - at(from), arm = p - at(from);
+            const double length = std::sqrt(dot(edge, edge)), along = dot(edge, arm) / (length * length);
+            const Vec2<double> normal{edge.y / length, -edge.x / length};
+            const double gap = dot(normal, arm);
+            if (along < inside || along > 1 - inside || std::abs(gap) > options_.skin) continue;
+            all.push_back(
+                {bodies_.held(bodies_.points().a[index(pair.point)])[0], bodies_.held(from)[0], {p.x, p.y}, normal});
+        }
+    }
+    return all;
 }
 
 }  // namespace gneiss

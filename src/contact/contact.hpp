@@ -28,6 +28,13 @@ struct ContactOverlap {
     double depth;                   ///< m
 };
 
+/// A contactor point before an edge of a boundary, no further away than the skin.
+struct ContactPlace {
+    std::int32_t node, other;  ///< of the mesh: one at the point's edge, one at that edge
+    Point2 at;                 ///< m
+    Vec2<double> normal;       ///< out of what the point is before, of length 1
+};
+
 /// Two of the bodies that a mesh has at the start, the lower number first; or a wall, -1 - its number, and a body.
 using Touching = std::pair<std::int32_t, std::int32_t>;
 /// How far they are apart, m; below zero: how deep a point of one is in the other, or in the wall, at most.
@@ -44,7 +51,7 @@ public:
         double restitution = ContactOptions().restitution;  ///< e, in (0, 1]
         double tangential_factor =
             ContactOptions().tangential_factor;  ///< tangential stiffness over the normal one, > 0
-        double skin = 0;                         ///< m, > 0: pairs are searched again once a node has moved half of it
+        double skin = 0;                         ///< m, > 0: pairs are complete until a node has moved half of it
         /// Whether sides may fail later: what overlaps then is remembered, and pushed apart no further.
         bool comes_apart = false;
         /// @throws InputError
@@ -57,8 +64,10 @@ public:
     std::string name() const override { return "contact"; }
     std::size_t n_history() const override { return remembers_ ? Memory::size(bodies_.points().size()) : 0; }
     void initial_history(std::span<double> history) const override;
-    /// @throws RecoverableError if a point is deeper than its potential reaches, or a node has moved further than pairs
-    /// were searched for; the message names it and the time
+    /// Pairs that are not complete at the trial are searched again there: what is in touch, and its force, do not
+    /// depend on when that was. Not so once somebody has asked for couplings(): a tangent's pattern has to hold.
+    /// @throws RecoverableError if a point is deeper than its potential reaches, or, with couplings() asked for, a node
+    /// has moved further than pairs were searched for; the message names it and the time
     void add_force(const Trial& trial, std::span<const double> history, std::span<double> f,
                    std::span<double> updated) const override;
     /// Displacements of the accepted state are those of the parted mesh already. Points that are in a body only because
@@ -66,6 +75,7 @@ public:
     void follow(const Parting& parting, const State& accepted, std::vector<double>& history,
                 PathEnergies& energies) override;
     bool watches() const override { return true; }
+    /// Keeps couplings() complete for the next step, once somebody has asked for them.
     bool look(const State& accepted) override;
     bool renew(const State& accepted) override;
     std::vector<std::array<std::int32_t, 2>> couplings() const override;
@@ -87,6 +97,9 @@ public:
     /// Of all pairs of bodies that the last search has found near each other.
     /// @param u  m, shape (2 n_mesh_nodes)
     Gaps gaps(std::span<const double> u) const;
+    /// Of all pairs that the last search has found near each other; those within one body, faces of cracks, as well.
+    /// @param u  m, shape (2 n_mesh_nodes)
+    std::vector<ContactPlace> places(std::span<const double> u) const;
     const ContactBodies& bodies() const { return bodies_; }
     const Options& options() const { return options_; }
     // What the last evaluation met, and how often pairs were searched: for reports.
@@ -98,10 +111,14 @@ private:
     using Memory = ContactMemory<double>;
     using AcceptedMemory = ContactMemory<const double>;
 
-    void search();
+    /// @param u  displacements of the bonded nodes, m, or of more behind them
+    void search(std::span<const double> u) const;
     bool search_at(std::span<const double> u);
+    /// Constants of the mesh as it is.
+    void take_constants();
     // In what follows displacements are those of the bonded nodes.
-    double largest_motion(std::span<const double> u) const;
+    double largest_motion(std::span<const double> u, std::span<const double> since) const;
+    void search_if_stale(std::span<const double> u) const;
     std::span<const double> bonded(std::span<const double> u_of_mesh) const {
         return bodies_.displacements(u_of_mesh, u_);
     }
@@ -131,16 +148,21 @@ private:
     Options options_;
     bool remembers_;
     ContactBodies bodies_;
-    CellSearch search_;
-    CandidatePacks candidates_;
-    std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
-    std::size_t n_searches_ = 0;
-    double moved_ = 0;                                 ///< largest way of a node since then, at the last look, m
-    std::optional<double> looked_at_;                  ///< time of the last look, s
-    double longest_dt_ = 0;                            ///< of the last steps, s
-    std::vector<TargetConstants> targets_;             ///< by triangle
-    std::vector<PointConstants> points_;               ///< by contactor point
+    std::vector<TargetConstants> targets_;  ///< by triangle
+    std::vector<PointConstants> points_;    ///< by contactor point
+
+    // pairs: a cache, whose age changes no force
+    mutable CellSearch search_;
+    mutable CandidatePacks candidates_;
+    mutable std::vector<double> searched_;  ///< displacements of the bonded nodes at the last search, m
+    mutable std::size_t n_searches_ = 0;
+
+    // where tangents are wanted
+    mutable bool coupled_ = false;                     ///< couplings() has been asked for
     mutable std::vector<std::size_t> first_coupling_;  ///< of each candidate, in couplings()
+    std::vector<double> looked_u_;                     ///< displacements at the last look, m
+    std::optional<double> looked_at_;                  ///< its time, s
+    double longest_dt_ = 0;                            ///< of the last steps, s
 
     // scratch of one evaluation
     mutable std::vector<double> u_, f_;        ///< of the bonded nodes, m, N, where they are not the mesh's

@@ -76,6 +76,8 @@ public:
 
     /// Contactor points between nodes of the mesh as it is: what meets a wall.
     const ContactorPoints& mesh_points() const { return mesh_points_; }
+    /// The element that an edge of the boundary belongs to, by its number in ContactorPoints::of_edge.
+    std::int32_t element_of_edge(std::size_t edge) const { return edges_[edge].element; }
     /// Reference positions of the mesh as it is, m, shape (2 n_mesh_nodes).
     std::span<const double> mesh_reference() const { return mesh_reference_; }
 

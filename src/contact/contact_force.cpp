@@ -34,6 +34,7 @@ void ranges_of_packs(std::size_t n_packs, Body body) {
 }  // namespace
 
 void Contact::find_hits(std::span<const double> u) const {
+    if (!coupled_) search_if_stale(u);
     const ContactorPoints& points = bodies_.points();
     const auto reference = bodies_.reference();
     x_.resize(reference.size());
@@ -252,7 +253,7 @@ void Contact::add_force(const Trial& trial, std::span<const double> history, std
                         std::span<double> updated) const {
     const double limit = 0.5 * options_.skin;
     const auto u = bonded(trial.u);
-    if (const double moved = largest_motion(u); !(moved <= limit))
+    if (const double moved = coupled_ ? largest_motion(u, searched_) : 0; !(moved <= limit))
         throw RecoverableError(fmt::format(
             "contact at t = {:.9g} s: a node has moved {:.3g} m since pairs were searched, further than half "
             "of contact.skin, {:.3g} m",

@@ -42,7 +42,52 @@ std::size_t Walls::place(std::size_t wall, std::size_t point) const {
     return Sums::n + walls_.size() * n_per_wall + (wall * points_.size() + point) * n_members;
 }
 
-void Walls::initial_history(std::span<double> history) const { std::ranges::fill(history, 0.0); }
+void Walls::initial_history(std::span<double> history) const {
+    std::ranges::fill(history, 0.0);
+    if (closer_.empty()) return;
+    const std::vector<double> at_rest(2 * contact_.bodies().n_mesh_nodes(), 0.0);
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+        for (std::size_t point = 0; point < points_.size(); ++point) {
+            const double depth = closer(w, point), slip = drawn_[w * points_.size() + point];
+            if (depth == 0) continue;
+            const double along = dot(position(point, at_rest) - walls_[w].point, turned(walls_[w].normal));
+            const std::array<double, n_members> start{1.0, along - slip, slip,
+                                                      walls_[w].friction / tangential_factor_ * depth, depth};
+            std::ranges::copy(start, history.begin() + static_cast<std::ptrdiff_t>(place(w, point)));
+        }
+}
+
+void Walls::preload(std::span<const std::array<double, 3>> stress) {
+    closer_.assign(walls_.size() * points_.size(), 0.0);
+    drawn_ = closer_;
+    const ContactBodies& bodies = contact_.bodies();
+    const std::vector<double> at_rest(2 * bodies.n_mesh_nodes(), 0.0);
+    const double near = overlap_tolerance * bodies.shortest_edge();
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+        const Wall& wall = walls_[w];
+        std::vector<Vec2<double>> force(points_.size(), Vec2<double>{0, 0});  // of the wall, N
+        for (std::size_t edge = 0; edge < points_.of_edge.size(); ++edge) {
+            const auto& on_edge = points_.of_edge[edge];
+            const auto away = [&](std::int32_t point) {
+                return std::abs(dot(position(index(point), at_rest) - wall.point, wall.normal));
+            };
+            if (std::ranges::any_of(on_edge, [&](std::int32_t point) { return away(point) > near; })) continue;
+            const auto& [xx, yy, xy] = stress[index(bodies.element_of_edge(edge))];
+            const Vec2<double> traction{-(xx * wall.normal.x + xy * wall.normal.y),
+                                        -(xy * wall.normal.x + yy * wall.normal.y)};
+            const double middle = thickness_ * points_.length[index(on_edge[2])];
+            for (std::size_t k = 0; k < 3; ++k)  // Simpson's weights
+                force[index(on_edge[k])] += (k == 2 ? middle : 0.25 * middle) * traction;
+        }
+        for (std::size_t point = 0; point < points_.size(); ++point) {
+            const double k = stiffness_of(point), press = dot(force[point], wall.normal);
+            if (!(press > 0)) continue;
+            const double most = wall.friction * press, shear = dot(force[point], turned(wall.normal));
+            closer_[w * points_.size() + point] = press / k;
+            drawn_[w * points_.size() + point] = -std::clamp(shear, -most, most) / (tangential_factor_ * k);
+        }
+    }
+}
 
 double Walls::stiffness_of(std::size_t point) const {
     const ContactBodies& bodies = contact_.bodies();
@@ -60,11 +105,12 @@ Vec2<double> Walls::position(std::size_t point, std::span<const double> u) const
 }
 
 template <class T>
-Vec2<T> Walls::force(const Wall& wall, std::size_t point, double t, const Vec2<T>& x, std::span<const double> old,
+Vec2<T> Walls::force(std::size_t number, std::size_t point, double t, const Vec2<T>& x, std::span<const double> old,
                      Response& response) const {
+    const Wall& wall = walls_[number];
     const Vec2<double> p = wall.point + t * wall.velocity, tangent = turned(wall.normal);
     const double k_n = stiffness_of(point), k_t = tangential_factor_ * k_n;
-    const T depth = wall.normal.x * (T(p.x) - x.x) + wall.normal.y * (T(p.y) - x.y);
+    const T depth = wall.normal.x * (T(p.x) - x.x) + wall.normal.y * (T(p.y) - x.y) + T(closer(number, point));
     const T along = tangent.x * (x.x - T(p.x)) + tangent.y * (x.y - T(p.y));
     // the normal and the friction law of contact_point.hpp
     const double returned = restitution_ * restitution_, lost = 1 - returned, unloading = k_n / returned;
@@ -90,7 +136,7 @@ void Walls::for_each_touch(const Trial& trial, Visit visit) const {
         const Vec2<double> p = walls_[w].point + trial.t * walls_[w].velocity;
         for (std::size_t point = 0; point < points_.size(); ++point) {
             const Vec2<double> x = position(point, trial.u);
-            if (dot(p - x, walls_[w].normal) > 0) visit(w, point, x);
+            if (dot(p - x, walls_[w].normal) + closer(w, point) > 0) visit(w, point, x);
         }
     }
 }
@@ -109,7 +155,7 @@ void Walls::add_force(const Trial& trial, std::span<const double> history, std::
     for_each_touch(trial, [&](std::size_t w, std::size_t point, const Vec2<double>& x) {
         const std::size_t at = place(w, point);
         Response response;
-        const Vec2<double> force_on = force(walls_[w], point, trial.t, x, history.subspan(at, n_members), response);
+        const Vec2<double> force_on = force(w, point, trial.t, x, history.subspan(at, n_members), response);
         const double weight = points_.weight_b[point];
         const std::size_t a = 2 * index(points_.a[point]), b = 2 * index(points_.b[point]);
         f[a] += (1 - weight) * force_on.x;
@@ -146,6 +192,13 @@ void Walls::follow(const Parting&, const State& accepted, std::vector<double>& h
     std::vector<double> now(history.begin(), history.begin() + static_cast<std::ptrdiff_t>(n_front));
     points_ = contact_.bodies().mesh_points();
     const std::vector<FormerPoint> former = former_points(old, points_);
+    if (!closer_.empty()) {
+        std::vector<double> moved;
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+            for (const FormerPoint& point : former)
+                moved.push_back(point.point < 0 ? 0.0 : closer_[w * old.size() + index(point.point)]);
+        closer_ = std::move(moved);
+    }
     for (std::size_t w = 0; w < walls_.size(); ++w)
         for (const FormerPoint& point : former)
             for (std::size_t k = 0; k < n_members; ++k)
@@ -174,7 +227,7 @@ void Walls::stiffness(const Trial& trial, std::span<const double> history,
     std::ranges::fill(df_du, ForceTerm::Stiffness{0, 0, 0, 0});
     for_each_touch(trial, [&](std::size_t w, std::size_t point, const Vec2<double>& x) {
         Response response;
-        const Vec2<D> f = force(walls_[w], point, trial.t, Vec2<D>{D::variable(x.x, 0), D::variable(x.y, 1)},
+        const Vec2<D> f = force(w, point, trial.t, Vec2<D>{D::variable(x.x, 0), D::variable(x.y, 1)},
                                 history.subspan(place(w, point), n_members), response);
         const std::array weights{1 - points_.weight_b[point], points_.weight_b[point]};
         for (std::size_t i = 0; i < 2; ++i)
@@ -220,7 +273,7 @@ void Walls::add_stiffness_bound(const Trial&, std::span<const double>, std::span
 void Walls::add_stored(const Trial& accepted, std::span<const double> history, StoredEnergies& energies) const {
     for_each_touch(accepted, [&](std::size_t w, std::size_t point, const Vec2<double>& x) {
         Response response;
-        force(walls_[w], point, accepted.t, x, history.subspan(place(w, point), n_members), response);
+        force(w, point, accepted.t, x, history.subspan(place(w, point), n_members), response);
         energies.contact += response.stored;
     });
 }
@@ -236,13 +289,25 @@ Gaps Walls::gaps(double t, std::span<const double> u) const {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
         const Vec2<double> p = walls_[w].point + t * walls_[w].velocity;
         for (std::size_t point = 0; point < points_.size(); ++point) {
-            const double gap = dot(position(point, u) - p, walls_[w].normal);
+            const double gap = dot(position(point, u) - p, walls_[w].normal) - closer(w, point);
             const std::int32_t body = contact_.bodies().body_of_mesh_node(points_.a[point]);
             const auto [found, first] = gaps.try_emplace({-1 - static_cast<std::int32_t>(w), body}, gap);
             if (!first) found->second = std::min(found->second, gap);
         }
     }
     return gaps;
+}
+
+std::vector<ContactPlace> Walls::places() const {
+    const std::vector<double> at_rest(2 * contact_.bodies().n_mesh_nodes(), 0.0);
+    std::vector<ContactPlace> all;
+    for (const Wall& wall : walls_)
+        for (std::size_t point = 0; point < points_.size(); ++point) {
+            const Vec2<double> p = position(point, at_rest);
+            if (std::abs(dot(p - wall.point, wall.normal)) <= contact_.options().skin)
+                all.push_back({points_.a[point], -1, {p.x, p.y}, wall.normal});
+        }
+    return all;
 }
 
 double Walls::deepest_at_rest() const {

@@ -6,6 +6,9 @@
 // force. Both are those of contact_point.hpp with the wall as the target, n and t fixed. The penalty is twice the
 // stiffness of the body's layer of elements: a body then presses against a wall as it would against its mirror image.
 //
+// Under stress in situ a wall presses from the start: a point on its face counts as if it were as deep in it as that
+// takes, from then on.
+//
 // A wall that moves does work: its force times its way, by the trapezoidal rule along a step, which closes the balance
 // of the leapfrog exactly while a point stays in touch.
 
@@ -50,9 +53,16 @@ public:
     void add_dissipated(std::span<const double> from, std::span<const double> to,
                         PathEnergies& energies) const override;
 
+    /// Lets boundaries that lie on a wall press on it from the start as their elements' stress says; to be called
+    /// before initial_history(). Tension gives no force, shear no more than friction holds.
+    /// @param stress  Cauchy, of each element, Pa: xx, yy, xy
+    void preload(std::span<const std::array<double, 3>> stress);
+
     /// Of every wall and every body.
     /// @param u  m, shape (2 n_mesh_nodes)
     Gaps gaps(double t, std::span<const double> u) const;
+    /// Points in the reference shape that are no further from a wall than the skin of contact; `other` is -1.
+    std::vector<ContactPlace> places() const;
     /// How deep a point of the boundary is in one of the walls at most in the reference shape, m; <= 0: in none.
     double deepest_at_rest() const;
 
@@ -67,8 +77,11 @@ private:
 
     std::size_t place(std::size_t wall, std::size_t point) const;
     double stiffness_of(std::size_t point) const;
+    double closer(std::size_t wall, std::size_t point) const {
+        return closer_.empty() ? 0 : closer_[wall * points_.size() + point];
+    }
     template <class T>
-    Vec2<T> force(const Wall& wall, std::size_t point, double t, const Vec2<T>& x, std::span<const double> old,
+    Vec2<T> force(std::size_t wall, std::size_t point, double t, const Vec2<T>& x, std::span<const double> old,
                   Response& response) const;
     Vec2<double> position(std::size_t point, std::span<const double> u) const;
     template <class Visit>
@@ -78,6 +91,9 @@ private:
     const Contact& contact_;
     std::vector<Wall> walls_;
     ContactorPoints points_;  ///< as the history has them
+    // of stress in situ, shape (walls, points); empty: none
+    std::vector<double> closer_;  ///< how deep a point on a wall's face is taken to be, m
+    std::vector<double> drawn_;   ///< slip of its spring at the start, m
     double restitution_, tangential_factor_, thickness_;
 };
 

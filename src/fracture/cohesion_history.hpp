@@ -35,6 +35,13 @@ struct CohesionHistory {
     T fracture() const { return fracture_i + fracture_ii; }
 };
 
+/// The start of an intact point that carries a traction although nothing has moved.
+template <class History>
+struct LoadedStart {
+    double opening, slip;  ///< m, that the law takes on top of those of the joint
+    History history;
+};
+
 /// a where the condition holds, else b: entry by entry.
 template <class History, class Condition>
 History choose_history(const Condition& condition, const History& a, const History& b) {

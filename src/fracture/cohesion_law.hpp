@@ -61,6 +61,12 @@ struct MixedModeLaw {
         return (p.tensile_strength < p.cohesion ? p.tensile_strength : p.cohesion) / p.penalty;
     }
 
+    /// @param normal, shear  traction where nothing has moved, Pa
+    static LoadedStart<History<double>> start(const CohesionProperties<double>& p, double normal,
+                                              double shear) requires(insertion == Insertion::intrinsic) {
+        return {normal / p.penalty, shear / p.penalty, {}};
+    }
+
     /// Traction at a trial, from the accepted history.
     /// @param opening  o, m, > 0 apart
     /// @param slip     s, m

@@ -85,6 +85,8 @@ public:
     Start wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const override;
     void corner_forces(const State& accepted, std::span<const double> history,
                        std::vector<CornerForce>& forces) const override;
+    std::vector<WaitingEnd> ends() const override;
+    void preload(const WaitingEnd& end, double normal, double shear) override;
 
 private:
     std::size_t n_packs() const { return padded(n_joints_) / pack_width; }
@@ -105,19 +107,40 @@ private:
     std::size_t entry(std::size_t joint, std::size_t which) const {
         return place(joint / pack_width, which) + joint % pack_width;
     }
+    /// Opening and slip as the law takes them: those of the traction at the start come on top.
+    template <class T>
+    JointMotion<T> of_law(std::size_t pack, JointMotion<T> motion) const {
+        if (preload_.empty()) return motion;
+        for (std::size_t i = 0; i < joint_points; ++i) {
+            motion.opening[i] += T(load(preload_, 4 * pack + 2 * i));
+            motion.slip[i] += T(load(preload_, 4 * pack + 2 * i + 1));
+        }
+        return motion;
+    }
     /// Whether untouched joints stay elastic at this trial.
     bool stay_elastic(std::size_t pack, const Nodal& u) const {
-        // most ends are far from their strengths, and from where the direction of the joint matters
-        const Vec2<Pack> start = u[2] - u[0], end = u[3] - u[1];
-        const Pack reach_squared = load(elastic_, 2 * pack + 1);
-        if (every_lane(xsimd::max(dot(start, start), dot(end, end)) <= reach_squared)) return true;
-        const auto motion = joint_motion(edge(pack), u);
+        if (preload_.empty()) {
+            // most ends are far from their strengths, and from where the direction of the joint matters
+            const Vec2<Pack> start = u[2] - u[0], end = u[3] - u[1];
+            const Pack reach_squared = load(elastic_, 2 * pack + 1);
+            if (every_lane(xsimd::max(dot(start, start), dot(end, end)) <= reach_squared)) return true;
+        }
+        const auto motion = of_law(pack, joint_motion(edge(pack), u));
         CohesionProperties<Pack> p{};
         for (const std::size_t i : {0, 1, 2, 6})
             p.*CohesionProperties<Pack>::members[i] = load(properties_, n_properties * pack + i);
         const Pack intact(0.0);
         return every_lane(Law::stays_intact(p, intact, motion.opening[0], motion.slip[0]) &&
                           Law::stays_intact(p, intact, motion.opening[1], motion.slip[1]));
+    }
+    /// Forces of a pack that stays elastic.
+    Nodal elastic(std::size_t pack, const Nodal& u) const {
+        const Pack stiffness = load(elastic_, 2 * pack);
+        if (preload_.empty()) return elastic_forces(stiffness, u);
+        const auto motion = joint_motion(edge(pack), u), seen = of_law(pack, motion);
+        return joint_forces(
+            motion, stiffness,
+            std::array{Traction<Pack>{seen.opening[0], seen.slip[0]}, Traction<Pack>{seen.opening[1], seen.slip[1]}});
     }
     Vec2<Pack> edge(std::size_t pack) const { return {load(edges_, 2 * pack), load(edges_, 2 * pack + 1)}; }
     double length(std::size_t joint) const {
@@ -158,6 +181,19 @@ private:
         return at;
     }
     JointMotion<double> motion_of(std::size_t joint, std::span<const double> u) const;
+    /// Where nothing has moved.
+    JointMotion<double> at_rest(std::size_t joint) const {
+        const std::size_t x = 2 * (joint / pack_width) * pack_width + joint % pack_width;
+        return joint_motion(Vec2<double>{edges_[x], edges_[x + pack_width]}, std::array<Vec2<double>, joint_nodes>{});
+    }
+    WaitingEnd end_of(std::size_t joint, std::size_t end, const JointMotion<double>& motion) const {
+        return {joint,           end,           node(joint, end), node(joint, end + 2),
+                weights_[joint], motion.normal, motion.along,     sides_[joint]};
+    }
+    /// Where the opening of an end stands in preload_; its slip is pack_width behind.
+    static std::size_t preloaded(std::size_t joint, std::size_t end) {
+        return 2 * (joint / pack_width * joint_points + end) * pack_width + joint % pack_width;
+    }
     /// Stiffness of the springs at an end against the displacement of one node, N/m: in shear that of friction stands
     /// beside the cohesive one.
     double spring(std::size_t joint) const {
@@ -197,11 +233,13 @@ private:
 
     double thickness_;
     std::size_t n_joints_ = 0;
-    std::vector<PairNumber> nodes_;          ///< shape (packs, joint_nodes, lanes)
-    Packs edges_;                            ///< a0 to a1 in the reference shape, m, shape (packs, 2, lanes)
-    Packs weights_;                          ///< m2, shape (packs, lanes)
-    Packs properties_;                       ///< shape (packs, n_properties, lanes)
-    Packs elastic_;                          ///< w k, N/m, and the square of elastic_reach, m2, shape (packs, 2, lanes)
+    std::vector<PairNumber> nodes_;  ///< shape (packs, joint_nodes, lanes)
+    Packs edges_;                    ///< a0 to a1 in the reference shape, m, shape (packs, 2, lanes)
+    Packs weights_;                  ///< m2, shape (packs, lanes)
+    Packs properties_;               ///< shape (packs, n_properties, lanes)
+    Packs elastic_;                  ///< w k, N/m, and the square of elastic_reach, m2, shape (packs, 2, lanes)
+    Packs preload_;  ///< opening, slip of the tractions at the start, m, shape (packs, ends, 2, lanes); empty: none
+    Packs start_;    ///< history at the start, shape (packs, ends, n_members, lanes); empty: all zero
     std::vector<std::int32_t> sides_;        ///< inner side of each joint
     std::vector<std::size_t> last_of_side_;  ///< joint with the highest number, shape (sides); `nowhere`: none
     static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
@@ -281,6 +319,11 @@ void JointBatch<Law, extrinsic>::fill_last_pack() {
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) const {
     std::ranges::fill(history, 0.0);
+    constexpr std::size_t n_rows = joint_points * n_members;
+    for (std::size_t pack = 0; pack < start_.size() / (n_rows * pack_width); ++pack) {
+        history[pack] = 1;
+        for (std::size_t r = 0; r < n_rows; ++r) store(load(start_, n_rows * pack + r), history, pack, r);
+    }
     if constexpr (extrinsic)
         for (std::size_t pack = 0; pack < n_packs(); ++pack)
             for (std::size_t i = 0; i < joint_points; ++i) store(Pack(1.0), history, pack, factor_row + i);
@@ -289,23 +332,23 @@ void JointBatch<Law, extrinsic>::initial_history(std::span<double> history) cons
 template <class Law, bool extrinsic>
 auto JointBatch<Law, extrinsic>::soften(double t, std::span<const double> history, std::size_t pack, const Nodal& u,
                                         std::span<double> updated) const -> Nodal {
-    const auto motion = joint_motion(edge(pack), u);
+    const auto motion = joint_motion(edge(pack), u), seen = of_law(pack, motion);
     std::array<Traction<Pack>, joint_points> tractions;
     Pack damage(1.0), apart(0.0), along(0.0);
     for (std::size_t i = 0; i < joint_points; ++i) {
         const CohesionProperties<Pack> law = of(history, pack, i);
         const History before = history_of(history, pack, i);
         const Pack w = weight(history, pack, before);
-        tractions[i] = Law::traction(law, before, motion.opening[i], motion.slip[i]);
+        tractions[i] = Law::traction(law, before, seen.opening[i], seen.slip[i]);
         tractions[i].normal *= w;
         tractions[i].shear *= w;
         if (updated.empty()) continue;
         // where no traction acts, nothing is dissipated either
         const History after =
-            choose_history(w > Pack(0.0), Law::advance(law, before, motion.opening[i], motion.slip[i]), before);
+            choose_history(w > Pack(0.0), Law::advance(law, before, seen.opening[i], seen.slip[i]), before);
         for (std::size_t k = 0; k < n_members; ++k) store(after.*History::members[k], updated, pack, member_row(i, k));
         damage = xsimd::min(damage, after.damage);
-        const Pack opening = positive_part(motion.opening[i]);
+        const Pack opening = positive_part(seen.opening[i]);
         apart += opening * opening;
         along += motion.slip[i] * motion.slip[i];
         if constexpr (extrinsic) store(row(history, pack, factor_row + i), updated, pack, factor_row + i);
@@ -338,7 +381,7 @@ void JointBatch<Law, extrinsic>::for_each_pack(std::size_t first, std::size_t la
                     updated[pack] = 0;
                     std::ranges::fill(updated.subspan(place(pack, 0), history_rows * pack_width), 0.0);
                 }
-                take(pack, elastic_forces(load(elastic_, 2 * pack), u));
+                take(pack, elastic(pack, u));
                 continue;
             }
         take(pack, soften(trial.t, history, pack, u, updated));
@@ -421,12 +464,12 @@ void JointBatch<Law, extrinsic>::stiffness(const Trial& trial, std::span<const d
             const auto node = static_cast<std::size_t>(k);
             moved[node] = {D::variable(u[node].x, 2 * k), D::variable(u[node].y, 2 * k + 1)};
         }
-        const auto motion = joint_motion(edge(pack), moved);
+        const auto motion = joint_motion(edge(pack), moved), seen = of_law(pack, motion);
         std::array<Traction<D>, joint_points> tractions;
         for (std::size_t i = 0; i < joint_points; ++i) {
             const History before = history_of(history, pack, i);
             const Pack w = weight(history, pack, before);
-            tractions[i] = Law::traction(of(history, pack, i), before, motion.opening[i], motion.slip[i]);
+            tractions[i] = Law::traction(of(history, pack, i), before, seen.opening[i], seen.slip[i]);
             tractions[i] = {w * tractions[i].normal, w * tractions[i].shear};
         }
         const auto f = joint_forces(motion, Pack(1.0), tractions);

@@ -32,7 +32,7 @@ void JointBatch<Law, extrinsic>::add_stored(const Trial& accepted, std::span<con
     energies.joints += ordered_sum(n_packs(), partial_, [&](std::size_t first, std::size_t last) {
         Pack sum(0.0);
         for (std::size_t pack = first; pack < last; ++pack) {
-            const auto motion = joint_motion(edge(pack), gather(accepted.u, pack));
+            const auto motion = of_law(pack, joint_motion(edge(pack), gather(accepted.u, pack)));
             for (std::size_t i = 0; i < joint_points; ++i) {
                 const History at = history_of(history, pack, i);
                 sum += weight(history, pack, at) *

@@ -204,10 +204,10 @@ std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& 
         const auto motion = motion_of(joint, accepted.u);
         bool open = true, far = false;
         for (std::size_t i = 0; i < joint_points; ++i) {
-            // an end that began under pressure presses until it has opened by what its spring was compressed
-            double closed_below = 0;
-            if constexpr (extrinsic) closed_below = std::max(0.0, -history[entry(joint, member_row(i, offset_row))]);
-            open = open && motion.opening[i] >= closed_below;
+            // an end that presses from the start does so until it has opened by what its spring was compressed
+            double offset = preload_.empty() ? 0 : preload_[preloaded(joint, i)];
+            if constexpr (extrinsic) offset = history[entry(joint, member_row(i, offset_row))];
+            open = open && motion.opening[i] >= std::max(0.0, -offset);
             far = far || std::max(motion.opening[i], std::abs(motion.slip[i])) > far_way * motion.length;
         }
         return open || far;
@@ -251,10 +251,7 @@ auto JointBatch<Law, extrinsic>::waiting(const State& accepted, std::span<const 
             for (std::size_t i = 0; i < joint_points; ++i) {
                 if (history[entry(joint, member_row(i, lambda_row))] >= 1 || node(joint, i) == node(joint, i + 2))
                     continue;
-                const auto motion = motion_of(joint, accepted.u);
-                ends.push_back({joint, i, node(joint, i), node(joint, i + 2),
-                                weights_[joint / pack_width * pack_width + joint % pack_width], motion.normal,
-                                motion.along, sides_[joint]});
+                ends.push_back(end_of(joint, i, motion_of(joint, accepted.u)));
             }
     }
     return ends;
@@ -291,6 +288,34 @@ void JointBatch<Law, extrinsic>::corner_forces(const State& accepted, std::span<
             }
         };
         for_each_pack(0, n_packs(), Trial::of(accepted), history, {}, visit);
+    }
+}
+
+template <class Law, bool extrinsic>
+auto JointBatch<Law, extrinsic>::ends() const -> std::vector<WaitingEnd> {
+    std::vector<WaitingEnd> all;
+    for (std::size_t joint = 0; joint < n_joints_; ++joint)
+        for (std::size_t i = 0; i < joint_points; ++i) all.push_back(end_of(joint, i, at_rest(joint)));
+    return all;
+}
+
+template <class Law, bool extrinsic>
+void JointBatch<Law, extrinsic>::preload(const WaitingEnd& end, double normal, double shear) {
+    if constexpr (extrinsic) {
+        assert(false);  // ends of extrinsic joints get their tractions when they wake
+    } else {
+        preload_.resize(n_packs() * 2 * joint_points * pack_width, 0.0);
+        const auto start = Law::start(given(end.joint), normal, shear);
+        double* to = &preload_[preloaded(end.joint, end.end)];
+        to[0] = start.opening;
+        to[pack_width] = start.slip;
+        if constexpr (!has_elastic_range) {
+            start_.resize(n_packs() * joint_points * n_members * pack_width, 0.0);
+            const std::size_t pack = end.joint / pack_width, lane = end.joint % pack_width;
+            for (std::size_t k = 0; k < n_members; ++k)
+                start_[((joint_points * pack + end.end) * n_members + k) * pack_width + lane] =
+                    start.history.*Law::template History<double>::members[k];
+        }
     }
 }
 

@@ -82,7 +82,7 @@ public:
     virtual void corner_forces(const State& accepted, std::span<const double> history,
                                std::vector<CornerForce>& forces) const = 0;
 
-    /// An end that waits for a traction while its nodes have parted.
+    /// An end of a joint: one that waits for a traction while its nodes have parted, or any.
     struct WaitingEnd {
         std::size_t joint;
         std::size_t end;             ///< 0 or 1
@@ -100,6 +100,13 @@ public:
     /// Gives an end its traction, from which it softens.
     /// @param normal, shear  Pa
     virtual Start wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const = 0;
+
+    /// All ends, in the reference shape.
+    virtual std::vector<WaitingEnd> ends() const = 0;
+    /// Of joints that are there from the start: the traction of an end before anything has moved. To be called before
+    /// initial_history().
+    /// @param normal, shear  Pa; beyond the strength the end starts to fail in the first step
+    virtual void preload(const WaitingEnd& end, double normal, double shear) = 0;
 };
 
 /// @param joints     at least one; their nodes stand at the same places in pairs

@@ -19,8 +19,11 @@
 // step dissipates the integral of z (f_t do_m + c_0 ds_m)/3 - W dz, term by term in opening and in sliding. It is exact
 // in pure modes for steps of any size.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "fracture/cohesion_history.hpp"
 #include "fracture/cohesion_properties.hpp"
 #include "fracture/friction.hpp"
 #include "fracture/softening.hpp"
@@ -52,6 +55,21 @@ struct YCodeHistory {
 struct YCodeLaw {
     template <class T>
     using History = YCodeHistory<T>;
+
+    /// As `MixedModeLaw::start`. Shear is friction as far as that reaches, the rest cohesive; beyond the peaks of the
+    /// cohesive parts there is no such point.
+    static LoadedStart<History<double>> start(const CohesionProperties<double>& p, double normal, double shear) {
+        const auto rise_to = [](double part) { return 1 - std::sqrt(1 - std::min(part, 1.0)); };  // g(x) = part
+        LoadedStart<History<double>> point;
+        point.opening = normal > 0 ? rise_to(normal / p.tensile_strength) * opening_at_peak(p) : normal / p.penalty;
+        const double friction = std::min(std::abs(shear), p.tan_phi_initial * positive_part(-normal));
+        const double way = rise_to((std::abs(shear) - friction) / p.cohesion) * slip_at_peak(p);
+        point.slip = with_sign_of(shear, way);
+        point.history.opening = point.opening;
+        point.history.slip = point.slip;
+        point.history.slider = with_sign_of(shear, way - friction / p.penalty);
+        return point;
+    }
 
     /// As `MixedModeLaw::traction`.
     template <class T, class V>

@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace gneiss {
 namespace {
@@ -66,10 +69,109 @@ std::vector<std::string> free_motions(const Part& part, const std::array<double,
     return motions;
 }
 
+/// Rows of a matrix in reduced form: each has a pivot, 1, above and below which there is nothing.
+class ReducedRows {
+public:
+    explicit ReducedRows(std::size_t n) : n_(n) {}
+
+    /// @return whether the row is independent of those before
+    bool add(std::vector<double> row) {
+        for (std::size_t r = 0; r < rows_.size(); ++r) subtract(row, rows_[r], row[pivots_[r]]);
+        const auto largest = std::ranges::max_element(row, {}, [](double x) { return std::abs(x); });
+        constexpr double nothing = 1e-7;  // of entries of about 1, after some hundred subtractions
+        if (row.empty() || std::abs(*largest) < nothing) return false;
+        const auto pivot = static_cast<std::size_t>(largest - row.begin());
+        const double factor = 1 / row[pivot];
+        for (double& x : row) x *= factor;
+        for (std::vector<double>& other : rows_) subtract(other, row, other[pivot]);
+        rows_.push_back(std::move(row));
+        pivots_.push_back(pivot);
+        return true;
+    }
+    /// Vectors that all rows leave at nothing.
+    std::vector<std::vector<double>> null_space() const {
+        std::vector<std::vector<double>> basis;
+        for (std::size_t column = 0; column < n_; ++column) {
+            if (std::ranges::find(pivots_, column) != pivots_.end()) continue;
+            std::vector<double>& vector = basis.emplace_back(n_, 0.0);
+            vector[column] = 1;
+            for (std::size_t r = 0; r < rows_.size(); ++r) vector[pivots_[r]] = -rows_[r][column];
+        }
+        return basis;
+    }
+
+private:
+    static void subtract(std::vector<double>& from, const std::vector<double>& row, double factor) {
+        for (std::size_t i = 0; factor != 0 && i < from.size(); ++i) from[i] -= factor * row[i];
+    }
+
+    std::size_t n_;
+    std::vector<std::vector<double>> rows_;
+    std::vector<std::size_t> pivots_;
+};
+
+/// Motions that parts have left where they touch: of each part (v_x, v_y, turn about its centre times its size).
+class Touching {
+public:
+    Touching(std::span<const Part* const> parts, double size) : parts_(parts), size_(size), rows_(3 * parts.size()) {
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            for (const double y : {parts[p]->heights_of_x.lowest, parts[p]->heights_of_x.highest})
+                if (!parts[p]->heights_of_x.empty()) add({p, none, {centre(p)[0], y}, {1, 0}});
+            for (const double x : {parts[p]->widths_of_y.lowest, parts[p]->widths_of_y.highest})
+                if (!parts[p]->widths_of_y.empty()) add({p, none, {x, centre(p)[1]}, {0, 1}});
+        }
+    }
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::array<double, 2> centre(std::size_t part) const {
+        const auto n = static_cast<double>(parts_[part]->n_nodes);
+        return {parts_[part]->sum[0] / n, parts_[part]->sum[1] / n};
+    }
+    struct Hold {
+        std::size_t part, other;  ///< none: what is fixed
+        std::array<double, 2> at, along;
+    };
+    void add(const Hold& hold) {
+        // two parts hold each other in three ways at most, however many places they touch at
+        const double turn = hold.at[0] * hold.along[1] - hold.at[1] * hold.along[0];
+        const auto [pair, first] = between_.try_emplace(std::minmax(hold.part, hold.other), 3);
+        if (!pair->second.add({hold.along[0], hold.along[1], turn / size_})) return;
+        std::vector<double> row(3 * parts_.size(), 0.0);
+        for (const auto& [part, sign] : {std::pair(hold.part, 1.0), std::pair(hold.other, -1.0)}) {
+            if (part == none) continue;
+            const std::array<double, 2> c = centre(part), arm{hold.at[0] - c[0], hold.at[1] - c[1]};
+            row[3 * part] += sign * hold.along[0];
+            row[3 * part + 1] += sign * hold.along[1];
+            row[3 * part + 2] += sign * (arm[0] * hold.along[1] - arm[1] * hold.along[0]) / size_;
+        }
+        rows_.add(std::move(row));
+    }
+    /// What each part can do, by name.
+    std::vector<std::vector<std::string>> motions() const {
+        const auto free = rows_.null_space();
+        std::vector<std::vector<std::string>> names(parts_.size());
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            constexpr double moves = 1e-6;
+            const auto can = [&](std::size_t k) {
+                return std::ranges::any_of(free, [&](const auto& v) { return std::abs(v[3 * p + k]) > moves; });
+            };
+            if (can(0)) names[p].emplace_back("translation in x");
+            if (can(1)) names[p].emplace_back("translation in y");
+            if (can(2)) names[p].push_back(fmt::format("rotation about ({:.6g}, {:.6g})", centre(p)[0], centre(p)[1]));
+        }
+        return names;
+    }
+
+private:
+    std::span<const Part* const> parts_;
+    double size_;
+    ReducedRows rows_;
+    std::map<std::pair<std::size_t, std::size_t>, ReducedRows> between_;
+};
+
 }  // namespace
 
 std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> constraints,
-                                 std::span<const std::array<std::int32_t, 2>> bonds) {
+                                 std::span<const std::array<std::int32_t, 2>> bonds, std::span<const Touch> touches) {
     const std::vector<std::int32_t> part_of = part_of_nodes(mesh, bonds);
     std::vector<Part> parts(mesh.n_nodes());  // that of a part's smallest node counts
     const auto of_node = [&](std::size_t node) -> Part& { return parts[static_cast<std::size_t>(part_of[node])]; };
@@ -95,13 +197,36 @@ std::vector<FreePart> free_parts(const Mesh& mesh, std::span<const Constraint> c
         if (part.n_elements++ == 0) in_order.push_back(&part);
     }
     std::vector<FreePart> free;
+    std::vector<const Part*> free_ones;
     for (const Part* part : in_order) {
         const auto n = static_cast<double>(part->n_nodes);
         const std::array<double, 2> centre{part->sum[0] / n, part->sum[1] / n};
         std::vector<std::string> motions = free_motions(*part, centre);
-        if (!motions.empty()) free.push_back({part->n_elements, centre, std::move(motions)});
+        if (motions.empty()) continue;
+        free.push_back({part->n_elements, centre, std::move(motions)});
+        free_ones.push_back(part);
     }
-    return free;
+    if (touches.empty() || free.empty()) return free;
+
+    double size = 0;  // of what is free
+    for (const Part* part : free_ones) size = std::max({size, part->extent[0].length(), part->extent[1].length()});
+    Touching touching(free_ones, size);
+    const auto number = [&](std::int32_t node) {
+        if (node < 0) return Touching::none;
+        const auto found = std::ranges::find(free_ones, &of_node(static_cast<std::size_t>(node)));
+        return found == free_ones.end() ? Touching::none : static_cast<std::size_t>(found - free_ones.begin());
+    };
+    for (const Touch& touch : touches) {
+        const std::size_t part = number(touch.node), other = number(touch.other);
+        if (part == other) continue;
+        touching.add({part, other, touch.at, touch.normal});
+        if (touch.rough) touching.add({part, other, touch.at, {-touch.normal[1], touch.normal[0]}});
+    }
+    const auto motions = touching.motions();
+    std::vector<FreePart> hanging;
+    for (std::size_t p = 0; p < free.size(); ++p)
+        if (!motions[p].empty()) hanging.push_back({free[p].n_elements, free[p].centre, motions[p]});
+    return hanging;
 }
 
 std::string describe(const std::vector<FreePart>& parts, const Mesh& mesh) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "base/errors.hpp"
+#include "model/rigid_motions.hpp"
 #include "support/one_thread.hpp"
 #include "support/touching_solids.hpp"
 #include "system/march.hpp"
@@ -179,8 +180,31 @@ TEST_P(ContactOf, FrequencyBound_IsAboveTheHighestFrequency) {
     EXPECT_LE(bound, 2 * exact);
 }
 
-TEST_P(ContactOf, FarFromTheSearch_IsRefused_UntilLookedAt) {
+TEST_P(ContactOf, FarFromTheSearch_ForcesAreThoseOfPairsSearchedThere) {
+    const Contact* contact = nullptr;
+    ContactOptions options = rough();
+    options.skin = 0.1;
+    const test::Solid solid = test::touching_solid(stacked(GetParam()), options, {}, &contact);
+    const State start = solid.system->initial_state(), far = pressed(solid, 0.4, -0.004, 1e-3);
+    std::vector<double> late(far.u.size()), fresh(far.u.size());
+    const std::size_t before = contact->n_searches();
+    solid.system->force(start, Trial::of(far), late);
+    EXPECT_EQ(contact->n_searches(), before + 1);
+    ASSERT_GT(contact->n_touching(), 0U);
+    renew_events(*solid.system, far);
+    solid.system->force(start, Trial::of(far), fresh);
+    EXPECT_EQ(late, fresh);
+    // and back: what was searched for far away is no more of use here
+    const State near = pressed(solid, 0, -0.004, 1e-3);
+    solid.system->force(start, Trial::of(near), late);
+    renew_events(*solid.system, near);
+    solid.system->force(start, Trial::of(near), fresh);
+    EXPECT_EQ(late, fresh);
+}
+
+TEST_P(ContactOf, FarFromTheSearch_WhereATangentIsWanted_IsRefused_UntilLookedAt) {
     const test::Solid solid = solid_of({.skin = 0.1});
+    solid.system->tangent();
     State state = pressed(solid, 0.1, 0, 0);
     std::vector<double> f(state.u.size());
     try {
@@ -225,8 +249,34 @@ TEST(ContactAlone, OneBody_DoesNotTouchItself) {
     EXPECT_TRUE(contact->overlaps(at_rest, 0).empty());
 }
 
+TEST(ContactPlaces, BodyThatContactAloneHolds_IsFreeAlongItsFace) {
+    for (const double gap : {1e-9, 1e-3, 0.3}) {
+        const Contact* contact = nullptr;
+        const test::Solid solid = test::touching_solid(stacked(false, gap), {.skin = 0.1}, {}, &contact);
+        std::vector<Constraint> fixed;
+        for (std::size_t node = 0; node < solid.mesh.n_nodes(); ++node)
+            if (solid.mesh.nodes[node][1] < 0.01)
+                for (const std::size_t c : {0, 1}) fixed.push_back({2 * node + c, Constraint::Kind::displacement});
+        const auto left = [&](bool rough) {
+            std::vector<Touch> touches;
+            for (const ContactPlace& place : contact->places(std::vector<double>(2 * solid.mesh.n_nodes(), 0.0)))
+                touches.push_back({place.node, place.other, place.at, {place.normal.x, place.normal.y}, rough});
+            EXPECT_EQ(touches.empty(), gap > 0.1);
+            const auto parts = free_parts(solid.mesh, fixed, {}, touches);
+            return parts.empty() ? std::vector<std::string>{} : parts[0].motions;
+        };
+        if (gap > 0.1) {
+            EXPECT_EQ(left(false).size(), 3U) << "too far away to be held";
+        } else {
+            EXPECT_EQ(left(false), std::vector<std::string>{"translation in x"});
+            EXPECT_EQ(left(true).size(), 0U);
+        }
+    }
+}
+
 TEST(ContactSearch, TakenUpInFlight_SearchesNoMoreOftenThanBefore) {
     // a step moves the upper square by a twentieth of the skin: a search every ten steps, less one for what comes next
+    // where a tangent is wanted
     const Contact* contact = nullptr;
     ContactOptions options;
     options.skin = 0.2;
@@ -235,6 +285,7 @@ TEST(ContactSearch, TakenUpInFlight_SearchesNoMoreOftenThanBefore) {
     test::Solid solid = test::touching_solid(mesh, options, {}, &contact);
     const double step_length = 0.05 * contact->options().skin;
     State state = solid.system->initial_state();
+    solid.system->tangent();
     const auto fly = [&](int steps) {
         const std::size_t before = contact->n_searches();
         for (int step = 0; step < steps; ++step) {
