@@ -48,10 +48,17 @@ void Bathe::allocate(const SemiDiscrete& system) {
     for (auto* values : {&reactions_, &reactions_new_, &reactions_before_})
         values->assign(system.constraints().size(), 0.0);
     motion_.bind(system, omega_);
+    interfaces_.bind(system);
+    if (interfaces_.active())
+        for (auto* values : {&joined_, &joined_middle_, &joined_next_, &impulse_}) values->assign(layout.n_dof, 0.0);
 }
 
 void Bathe::start(const SemiDiscrete& system, State& state, StartReason why) {
-    if (why == StartReason::fresh) omega_ = system.frequency_bound(state).omega;
+    if (why == StartReason::fresh) {
+        omega_ = system.frequency_bound(state).omega;
+        dt_ = options_.dt;
+        interfaces_.set_largest(0);
+    }
     if (why != StartReason::reinitialise) allocate(system);
     forget(system, state);
     newton_.counts().starts += motion_.hold(system, state, why);
@@ -59,6 +66,9 @@ void Bathe::start(const SemiDiscrete& system, State& state, StartReason why) {
     ++newton_.counts().starts;
     motion_.reactions(system, state.v, f_, reactions_);
     motion_.accelerations(system, state.v, f_, a_);
+    if (!interfaces_.active()) return;
+    interfaces_.start(system, state, omega_);
+    interfaces_.force(system, state, Trial::of(state), joined_);
 }
 
 StepReport Bathe::advance(const SemiDiscrete& system, State& state, double t_stop) {
@@ -66,23 +76,30 @@ StepReport Bathe::advance(const SemiDiscrete& system, State& state, double t_sto
     motion_.step_from(system, state);
     StepReport report;
     const std::size_t evaluations_before = counts().evaluations;
-    double limit = options_.dt;
+    double limit = dt_;
     for (;; ++report.n_rejected) {
         constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
         report.dt = remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
         try {
             take(system, state, report.dt, report.dt == remaining ? t_stop : state.t + report.dt);
-            break;
+            const double made = interfaces_.active() ? excess(system, state, report.dt) : 0;
+            if (made <= 1) break;
+            limit = report.dt / 2;
+            report.rejected = InterfaceBalance::reason(made);
         } catch (const RecoverableError& failure) {
             newton_.drop_matrix();
             limit = report.dt / 2;
+            report.rejected = failure.what();
             if (limit < shortest_part * options_.dt)
                 throw RecoverableError(fmt::format("{} cannot go on from t = {:.9g} s, with steps down to {:.3g} s: {}",
                                                    name(), state.t, report.dt, failure.what()));
         }
     }
+    dt_ = std::min(options_.dt, 2 * limit);
+    if (interfaces_.active()) interfaces_.accept();
     std::swap(state, next_);
     a_.swap(a_next_);
+    joined_.swap(joined_next_);
     reactions_.swap(reactions_new_);
     report.t = state.t;
     report.n_force = counts().evaluations - evaluations_before;
@@ -162,19 +179,50 @@ void Bathe::accept(const SemiDiscrete& system, const State& from, State& to) {
     add_support_work(system, reactions_before_, reactions_new_, from, to);
 }
 
+double Bathe::excess(const SemiDiscrete& system, const State& state, double dt) {
+    const double half = 0.5 * split_ * dt;
+    interfaces_.force(system, state, Trial::of(middle_), joined_middle_);
+    interfaces_.force(system, middle_, Trial::of(next_), joined_next_);
+    const auto to_middle = [&](std::size_t i) { return half * (joined_[i] + joined_middle_[i]); };
+    const auto work = [&](auto impulse, const State& from, const State& to) {
+        parallel_ranges(impulse_.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) impulse_[i] = impulse(i);
+        });
+        return interfaces_.work(system, impulse_, from, to);
+    };
+    const double first = work(to_middle, state, middle_);
+    const double second = work(
+        [&](std::size_t i) {
+            return dt * (q0_ * joined_[i] + q1_ * joined_middle_[i] + q2_ * joined_next_[i]) - to_middle(i);
+        },
+        middle_, next_);
+    return interfaces_.excess(system, first + second, state, next_);
+}
+
 double Bathe::kinetic_energy(const SemiDiscrete& system, const State& state) const {
     return synchronised_kinetic_energy(system, state.v, partial_);
 }
 
-IntegratorMemory Bathe::save() const { return {{"acceleration", a_}, {"reactions", reactions_}, {"omega", {omega_}}}; }
+IntegratorMemory Bathe::save() const {
+    return {{"acceleration", a_},
+            {"joints_and_contact", joined_},
+            {"reactions", reactions_},
+            {"step", {dt_, omega_, interfaces_.largest()}}};
+}
 
 void Bathe::forget(const SemiDiscrete&, State&) { newton_.forget(); }
 
-void Bathe::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
-    omega_ = remembered(memory, name(), "omega", 1)[0];
+void Bathe::load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) {
+    const std::vector<double>& step = remembered(memory, name(), "step", 3);
+    dt_ = step[0];
+    omega_ = step[1];
     allocate(system);
     a_ = remembered(memory, name(), "acceleration", a_.size());
     reactions_ = remembered(memory, name(), "reactions", reactions_.size());
+    if (!interfaces_.active()) return;
+    interfaces_.start(system, state, omega_);
+    interfaces_.set_largest(step[2]);
+    joined_ = remembered(memory, name(), "joints_and_contact", joined_.size());
 }
 
 }  // namespace gneiss

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/scheme_defaults.hpp"
+#include "integrators/interface_balance.hpp"
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/stage_newton.hpp"
 #include "system/integrator.hpp"
@@ -48,7 +49,11 @@ public:
     /// The matrix that later steps would start with.
     void forget(const SemiDiscrete& system, State& state) override;
 
-    WorkCounts work() const override { return newton_.work(); }
+    WorkCounts work() const override {
+        WorkCounts counts = newton_.work();
+        counts.interactions = interfaces_.evaluations();
+        return counts;
+    }
     const StageNewton::Counts& counts() const { return newton_.counts(); }
 
 private:
@@ -61,14 +66,20 @@ private:
     /// z, history, energies and reactions of a sub-step that has been solved.
     void accept(const SemiDiscrete& system, const State& from, State& to);
 
+    /// InterfaceBalance::excess() of a step that has been taken.
+    double excess(const SemiDiscrete& system, const State& state, double dt);
+
     Options options_;
     double split_, q0_, q1_, q2_;
     StageNewton newton_;
     PrescribedMotion motion_;
+    InterfaceBalance interfaces_;
+    double dt_ = 0;     ///< longest that the next step may be, s
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     State next_, middle_;
     std::vector<double> a_, a_middle_, a_next_;  ///< accelerations, prescribed ones included
     std::vector<double> known_u_, known_v_, f_;
+    std::vector<double> joined_, joined_middle_, joined_next_, impulse_;  ///< of joints and contact alone, N, N s
     std::vector<double> reactions_, reactions_new_, reactions_before_;
     mutable std::vector<double> partial_;
 };

@@ -78,6 +78,9 @@ void GeneralizedAlpha::allocate(const SemiDiscrete& system) {
         for (auto* values : {&at_end_, &at_end_next_, &scratch_}) values->assign(layout.n_dof, 0.0);
     reactions_.assign(system.constraints().size(), 0.0);
     motion_.bind(system, omega_);
+    interfaces_.bind(system);
+    if (interfaces_.active())
+        for (auto* values : {&joined_, &joined_next_, &impulse_}) values->assign(layout.n_dof, 0.0);
 }
 
 void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReason why) {
@@ -85,6 +88,7 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
         omega_ = system.frequency_bound(state).omega;
         dt_ = 0;
         scales_ = ProblemScales(options_.scales);
+        interfaces_.set_largest(0);
     }
     if (why != StartReason::reinitialise) allocate(system);
     forget(system, state);
@@ -99,52 +103,68 @@ void GeneralizedAlpha::start(const SemiDiscrete& system, State& state, StartReas
     motion_.reactions(system, state.v, f_, reactions_);
     motion_.accelerations(system, state.v, f_, a_);
     if (options_.rtol > 0) at_end_ = a_;
+    if (!interfaces_.active()) return;
+    interfaces_.start(system, state, omega_);
+    interfaces_.force(system, state, Trial::of(state), joined_);
 }
 
 StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, double t_stop) {
     const bool adaptive = options_.rtol > 0;
     const double remaining = t_stop - state.t;
-    const double wanted = adaptive ? std::min(dt_, system.longest_step(state.t)) : options_.dt;
+    const double wanted = adaptive ? std::min(dt_, system.longest_step(state.t)) : dt_;
     motion_.step_from(system, state);
     StepReport report;
     const std::size_t evaluations_before = counts().evaluations;
     double limit = wanted;
+    std::string why;
     for (;; ++report.n_rejected) {
         constexpr double round_off = 1e-9;  // a remainder of round-off is no step of its own
         const double dt = remaining / std::max(1.0, std::ceil(remaining / limit - round_off));
         next_.t = dt == remaining ? t_stop : state.t + dt;
         next_.last_event = stage_.last_event = state.last_event;
         report.dt = dt;
-        std::string why = "the error is too large";
         try {
             solve(system, state, dt);
             arrive(system, state);
             const double e = adaptive ? error(dt) : 0;
-            if (e <= 1) {
+            const double made = e <= 1 && interfaces_.active() ? excess(system, state, dt) : 0;
+            if (e <= 1 && made <= 1) {
                 finish_step(system, state);
-                if (adaptive) choose_next_step(dt, limit, e);
+                choose_next_step(dt, limit, e);
                 break;
             }
-            limit = dt * std::max(0.2, 0.9 * std::cbrt(1 / e));
+            if (made > 1) {
+                why = InterfaceBalance::reason(made);
+                limit = dt / 2;
+            } else {
+                why = "the error is too large";
+                limit = dt * std::max(0.2, 0.9 * std::cbrt(1 / e));
+            }
         } catch (const RecoverableError& failure) {
             newton_.drop_matrix();
             limit = dt / 2;
             why = failure.what();
         }
-        if (limit < shortest_part * wanted)
+        if (limit < shortest_part * (adaptive ? wanted : options_.dt))
             throw RecoverableError(fmt::format("{} cannot go on from t = {:.9g} s, with steps down to {:.3g} s: {}",
                                                options_.name, state.t, dt, why));
     }
     std::swap(state, next_);
     a_.swap(a_next_);
     at_end_.swap(at_end_next_);
+    joined_.swap(joined_next_);
     scales_.include(state);
     report.t = state.t;
+    if (report.n_rejected > 0) report.rejected = why;
     report.n_force = counts().evaluations - evaluations_before;
     return report;
 }
 
 void GeneralizedAlpha::choose_next_step(double dt, double limit, double error) {
+    if (options_.rtol == 0) {
+        dt_ = std::min(options_.dt, 2 * limit);
+        return;
+    }
     const double best = 0.9 * dt * std::cbrt(1 / std::max(error, 1e-9));
     // a longer step asks for a new matrix: worth it for a fifth
     dt_ = best > 1.2 * limit ? std::min(best, 2 * limit) : std::min(best, limit);
@@ -229,13 +249,27 @@ void GeneralizedAlpha::arrive(const SemiDiscrete& system, const State& state) {
         system.force(state, end, f_);
         ++(estimates ? newton_.counts().evaluations : newton_.counts().balance);
     }
+    system.add_path_energies(state, next_);
     if (!estimates) return;
     std::ranges::copy(f_, scratch_.begin());
     motion_.accelerations(system, next_.v, scratch_, at_end_next_);
 }
 
+double GeneralizedAlpha::excess(const SemiDiscrete& system, const State& state, double dt) {
+    // the part of M a(n+1) that is theirs goes by the recursion of the scheme, and so does their impulse
+    const double m = options_.scheme.alpha_m, gamma = options_.scheme.gamma;
+    interfaces_.force(system, state, Trial::of(stage_), joined_next_);
+    parallel_ranges(joined_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            joined_next_[i] = (joined_next_[i] - m * joined_[i]) / (1 - m);
+            impulse_[i] = dt * ((1 - gamma) * joined_[i] + gamma * joined_next_[i]);
+        }
+    });
+    return interfaces_.excess(system, interfaces_.work(system, impulse_, state, next_), state, next_);
+}
+
 void GeneralizedAlpha::finish_step(const SemiDiscrete& system, const State& state) {
-    system.add_path_energies(state, next_);
+    if (interfaces_.active()) interfaces_.accept();
     const auto constraints = system.constraints();
     for (std::size_t k = 0; k < constraints.size(); ++k)
         next_.path.support_work += 0.5 * reactions_[k] * (next_.u[constraints[k].dof] - state.u[constraints[k].dof]);
@@ -251,26 +285,28 @@ double GeneralizedAlpha::kinetic_energy(const SemiDiscrete& system, const State&
 double GeneralizedAlpha::matrix_bytes() const { return newton_.bytes(); }
 
 IntegratorMemory GeneralizedAlpha::save() const {
-    return {{"acceleration", a_},
-            {"acceleration_at_end", at_end_},
-            {"reactions", reactions_},
-            {"scales", scales_.save()},
-            {"step", {dt_, omega_}}};
+    return {
+        {"acceleration", a_},      {"acceleration_at_end", at_end_}, {"joints_and_contact", joined_},
+        {"reactions", reactions_}, {"scales", scales_.save()},       {"step", {dt_, omega_, interfaces_.largest()}}};
 }
 
 void GeneralizedAlpha::forget(const SemiDiscrete&, State&) { newton_.forget(); }
 
-void GeneralizedAlpha::load(const SemiDiscrete& system, State&, const IntegratorMemory& memory) {
+void GeneralizedAlpha::load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) {
     const auto take = [&](const char* entry, std::size_t size) -> const std::vector<double>& {
         return remembered(memory, name(), entry, size);
     };
-    dt_ = take("step", 2)[0];
-    omega_ = take("step", 2)[1];
+    dt_ = take("step", 3)[0];
+    omega_ = take("step", 3)[1];
     scales_.load(system, take("scales", 3));
     allocate(system);
     a_ = take("acceleration", a_.size());
     at_end_ = take("acceleration_at_end", at_end_.size());
     reactions_ = take("reactions", reactions_.size());
+    if (!interfaces_.active()) return;
+    interfaces_.start(system, state, omega_);
+    interfaces_.set_largest(take("step", 3)[2]);
+    joined_ = take("joints_and_contact", joined_.size());
 }
 
 }  // namespace gneiss

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/scheme_defaults.hpp"
+#include "integrators/interface_balance.hpp"
 #include "integrators/prescribed_motion.hpp"
 #include "integrators/problem_scales.hpp"
 #include "integrators/stage_newton.hpp"
@@ -67,7 +68,11 @@ public:
     StepReport advance(const SemiDiscrete& system, State& state, double t_stop) override;
     double kinetic_energy(const SemiDiscrete& system, const State& state) const override;
     std::span<const double> reactions(const SemiDiscrete&, const State&) override { return reactions_; }
-    WorkCounts work() const override { return newton_.work(); }
+    WorkCounts work() const override {
+        WorkCounts counts = newton_.work();
+        counts.interactions = interfaces_.evaluations();
+        return counts;
+    }
     double matrix_bytes() const override;
     IntegratorMemory save() const override;
     void load(const SemiDiscrete& system, State& state, const IntegratorMemory& memory) override;
@@ -85,6 +90,8 @@ private:
     void place(const State& state, double dt);
     /// Forces, and what they leave, at the end of a step that is solved.
     void arrive(const SemiDiscrete& system, const State& state);
+    /// InterfaceBalance::excess() of a step that has arrived.
+    double excess(const SemiDiscrete& system, const State& state, double dt);
     /// Local error over its tolerance. By the forces at both ends: the stage at which forces are in balance may be
     /// short of a contact that the end of the step is deep in.
     double error(double dt) const;
@@ -96,11 +103,13 @@ private:
     StageNewton newton_;
     PrescribedMotion motion_;
     ProblemScales scales_;
-    double dt_ = 0;     ///< next step, s
+    InterfaceBalance interfaces_;
+    double dt_ = 0;     ///< next step, s: the longest that it may be
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     State next_, stage_;
     std::vector<double> a_, a_next_;  ///< accelerations, prescribed ones included
     std::vector<double> f_;
+    std::vector<double> joined_, joined_next_, impulse_;  ///< M a of joints and contact alone, N; their impulse, N s
     std::vector<double> at_end_, at_end_next_, scratch_;  ///< M^-1 (f - C v) at the ends of a step; of adaptive ones
     std::vector<double> reactions_;
     mutable std::vector<double> partial_;

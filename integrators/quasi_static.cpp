@@ -85,7 +85,7 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
     right_.assign(n, 0.0);
     if (n == 0) return;  // nothing to solve for
     if (contact_) {
-        constexpr double part = 1e-9;  // of the stiffest motion: a million times softer than any that something holds
+        constexpr double part = 1e-6;  // of the stiffest motion: a million times softer than any that something holds
         const double omega = system.frequency_bound(system.initial_state()).omega;
         tangent_->brace(part * omega * omega);
     }

@@ -143,7 +143,8 @@ TEST_P(JointsOf, AtRest_CopiesOfANodeHaveOneAcceleration_AndNothingIsLost) {
     constexpr double traction = 8e6;  // Pa, on sides of 1 m at most: round-off of a dozen of them
     EXPECT_LE(most, 100 * std::numeric_limits<double>::epsilon() * traction);
     const State after = accepted(rest, rest);
-    EXPECT_EQ(after.path.friction, 0);
+    // springs of friction that start at their limit slip by round-off of 1e-5 m, under 1e6 N
+    EXPECT_NEAR(after.path.friction, 0, 10 * std::numeric_limits<double>::epsilon() * 1e-5 * 1e6);
     EXPECT_EQ(after.path.fracture, 0);
 }
 
