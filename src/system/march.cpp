@@ -1,10 +1,10 @@
 #include "system/march.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <initializer_list>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace gneiss {
 namespace {
@@ -139,10 +139,12 @@ public:
             const double longest = system_.longest_step(t);
             if (step.dt > (1 + round_off) * longest) {
                 told_ = true;
-                step.warning += fmt::format(
-                    "{}a step of {:.3g} s near t = {:.6g} s is longer than {:.3g} s, within which a load or a support "
-                    "varies: what it does in between may be missed; take shorter steps",
-                    step.warning.empty() ? "" : "; ", step.dt, t, longest);
+                std::ostringstream text;
+                text << (step.warning.empty() ? "" : "; ") << std::setprecision(3) << "a step of " << step.dt
+                     << " s near t = " << std::setprecision(6) << t << " s is longer than " << std::setprecision(3)
+                     << longest << " s, within which a load or a support varies: what it does in between may be "
+                     << "missed; take shorter steps";
+                step.warning += text.str();
             }
             t += std::max(longest, step.dt);
         }
