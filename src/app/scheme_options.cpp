@@ -39,8 +39,8 @@ CentralDifference::Options options_of<CentralDifference>(const IntegratorOptions
 
 template <>
 Verlet::Options options_of<Verlet>(const IntegratorOptions& o) {
-    using Form = Verlet::Form;
-    return {options_of<CentralDifference>(o), o.position_form ? Form::position : Form::velocity, o.composition};
+    return {options_of<CentralDifference>(o), o.position_form ? Verlet::Form::position : Verlet::Form::velocity,
+            o.composition};
 }
 
 template <>

@@ -132,7 +132,9 @@ TEST_P(Kinks, MassBetweenStiffStops_KeepsItsEnergy) {
     for (; state.t < duration; ++n_steps) {
         const StepReport step = integrator->advance(system, state, duration);
         n_rejected += step.n_rejected;
-        if (step.n_rejected > 0) EXPECT_FALSE(step.rejected.empty());
+        if (step.n_rejected > 0) {
+            EXPECT_FALSE(step.rejected.empty());
+        }
         largest = std::max(largest, energy());
         smallest = std::min(smallest, energy());
         ASSERT_LT(n_steps, 20000u);
