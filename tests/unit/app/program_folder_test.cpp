@@ -36,9 +36,10 @@ protected:
 TEST_F(ProgramFolder, InUse_IsRefusedWithOwner_AndLeftAlone) {
     const Ended ended = beside_a_run({"run", "case.toml", "--overwrite"});
     EXPECT_EQ(ended.code, 2);
-    EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("results/case: in use by `gneiss run "), HasSubstr("case.toml`, process "),
-                      HasSubstr(" " + std::to_string(process) + " on "), HasSubstr(", since 20"), HasSubstr("--out")));
+    std::string owner = " ";
+    owner += std::to_string(process);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("results/case: in use by `gneiss run "), HasSubstr("case.toml`, process "),
+                                 HasSubstr(owner + " on "), HasSubstr(", since 20"), HasSubstr("--out")));
     EXPECT_THAT(contents("results/case/run.log"), HasSubstr("step: t = "));
     EXPECT_TRUE(exists("results/case/fields_000000.vtu"));
 }

@@ -77,16 +77,16 @@ TEST_P(StateSeriesOf, Errors_AreRelativeToTheLargestOfTheReference) {
     for (double& v : other.samples[1].velocity) v += 0.1;
     const StateErrors errors = errors_against(other, reference);
     // 0.1 of a quarter of the largest; both components by 0.1 of (2, 4)
-    EXPECT_NEAR(errors.displacement, 0.025, 1e-14);
-    EXPECT_NEAR(errors.velocity, 0.1 * std::sqrt(2.0) / std::sqrt(20.0), 1e-14);
+    EXPECT_NEAR(errors.displacement.value(), 0.025, 1e-14);
+    EXPECT_NEAR(errors.velocity.value(), 0.1 * std::sqrt(2.0) / std::sqrt(20.0), 1e-14);
     EXPECT_EQ(errors.stress, 0);
 
     ExactOptions exact;
     exact.displacement = {Formula("1e-3*x*(t < 0.15 ? 1 : 4)"), Formula(0.0)};
     exact.velocity = {Formula("t < 0.15 ? 2 : 1"), Formula("t < 0.15 ? 4 : 2")};
     const StateErrors against_form = errors_against(other, exact);
-    EXPECT_NEAR(against_form.displacement, errors.displacement, 1e-14);
-    EXPECT_NEAR(against_form.velocity, errors.velocity, 1e-14);
+    EXPECT_NEAR(against_form.displacement.value(), errors.displacement.value(), 1e-14);
+    EXPECT_NEAR(against_form.velocity.value(), errors.velocity.value(), 1e-14);
     EXPECT_FALSE(against_form.stress);
 
     other.samples[0].t = 0.11;

@@ -174,8 +174,9 @@ TEST(SundialsOde, StateWithinAStep_IsAsExactAsItsEnd) {
         integrator->state_within(system, state.t, at, reactions);
         EXPECT_LT(test::distance(at, state), 1e-13) << integrator->name();
         EXPECT_NEAR(energy(at), energy(state), 1e-12) << integrator->name();
+        const auto at_end = integrator->reactions(system, state);
         for (std::size_t k = 0; k < reactions.size(); ++k)
-            EXPECT_NEAR(reactions[k], integrator->reactions()[k], 1e-9) << integrator->name();
+            EXPECT_NEAR(reactions[k], at_end[k], 1e-9) << integrator->name();
         // and the march goes on from it
         const double reached = state.t;
         EXPECT_GT(integrator->advance(system, state, test::oscillator_end).t, reached) << integrator->name();
