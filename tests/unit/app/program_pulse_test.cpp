@@ -102,7 +102,9 @@ TEST_F(ProgramPulse, StepsThatAreGiven_AreToldOfOnceWhereTheyPassOverALoad) {
 TEST_F(ProgramPulse, DisplacementThatJumps_IsRefusedOfAnExpressionToo) {
     std::string deck = shaken;
     const std::string smooth = "sin(pi*(t-2.05e-3)/1.5e-4)^2";
-    deck.replace(deck.find(smooth), smooth.size(), std::string(1, '1'));
+    const std::size_t at = deck.find(smooth);
+    deck.erase(at, smooth.size());
+    deck.insert(at, 1, '1');
     put("a.toml", deck);
     const Ended ended = gneiss({"run", "a.toml"});
     EXPECT_EQ(ended.code, 2);
