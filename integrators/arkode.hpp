@@ -50,7 +50,6 @@ private:
     int step(double dt, double t_stop, double& t) override;
     int dense(double t, N_Vector at) override;
     /// Tables of order 5 evaluate once, those of higher orders four times.
-    bool dense_output_is_free() const override { return order_ < 5; }
     double last_step() override;
     std::size_t failed_trials() override;
     std::string flag_name(int flag) override;
@@ -62,7 +61,6 @@ private:
 
     Options options_;
     const RungeKuttaTable& table_;
-    int order_;
     struct Deleter {
         void operator()(void* memory) const;
     };

@@ -192,29 +192,14 @@ void SundialsOde::state_within(const SemiDiscrete& system, double t, State& at, 
     accepted_ = accepted;
 }
 
-void SundialsOde::find_middle(const SemiDiscrete& system, const State& from, const State& to) {
-    middle_.t = 0.5 * (from.t + to.t);
-    middle_.last_event = to.last_event;
-    middle_.history = from.history;
-    if (dense_output_is_free() || !to.z.empty()) {
-        find_within(system, middle_.t, middle_);
-        return;
-    }
-    // the cubic that has u and v at both ends, of order 4 in its middle, as the rule for energies is
-    const double h = to.t - from.t;
-    for (std::size_t i = 0; i < middle_.u.size(); ++i) {
-        middle_.u[i] = 0.5 * (from.u[i] + to.u[i]) + 0.125 * h * (from.v[i] - to.v[i]);
-        middle_.v[i] = 1.5 * (to.u[i] - from.u[i]) / h - 0.25 * (from.v[i] + to.v[i]);
-    }
-    form_.motion().evaluate(system, middle_.t);
-    form_.motion().put(system, middle_.u, middle_.v);
-}
-
 /// The trapezoidal rule over the step and over its halves, extrapolated: order 4, so that the ledger does not hide what
 /// a scheme of high order conserves. Supports that rest do no work: reactions matter only where they move.
 void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& from, Reactions& before, State& to,
                                     Reactions& after) {
-    find_middle(system, from, to);
+    middle_.t = 0.5 * (from.t + to.t);
+    middle_.last_event = to.last_event;
+    middle_.history = from.history;
+    find_within(system, middle_.t, middle_);
     middle_reactions_.known = false;
     const bool supports_move = std::ranges::any_of(system.constraints(), [&](const Constraint& support) {
         return middle_.u[support.dof] != from.u[support.dof] || to.u[support.dof] != from.u[support.dof];

@@ -78,8 +78,6 @@ protected:
     virtual int step(double dt, double t_stop, double& t) = 0;
     /// The solution at a time within the last step, into `at`.
     virtual int dense(double t, N_Vector at) = 0;
-    /// Whether dense() evaluates no forces.
-    virtual bool dense_output_is_free() const { return true; }
     virtual double last_step() = 0;
     /// Failed trials of the solver since it was created or restarted.
     virtual std::size_t failed_trials() = 0;
@@ -129,8 +127,6 @@ private:
     void find_reactions(const SemiDiscrete& system, const State& accepted, const State& at, Reactions& reactions);
     /// u, v, z at a time within the last step.
     void find_within(const SemiDiscrete& system, double t, State& at);
-    /// middle_ of two states of the last step.
-    void find_middle(const SemiDiscrete& system, const State& from, const State& to);
     void add_path_energies(const SemiDiscrete& system, const State& from, Reactions& before, State& to,
                            Reactions& after);
 

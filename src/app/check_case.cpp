@@ -117,13 +117,6 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     const std::string too_many_threads = use_threads(threads);
     DeckNotes notes;
     Case built = build_case(read_deck(deck, set, &notes));
-    Measured measured;
-    if (built.integrator->is_static()) {
-        State state = built.system->initial_state();
-        built.integrator->start(*built.system, state, StartReason::fresh);  // orders the unknowns
-    } else {
-        measured = measure_steps(built);
-    }
     const auto line = [&out](const char* what, const std::string& value) { print_line(out, what, value); };
     line("deck", deck.string() + ": no errors");
     line("warning", too_many_threads);
@@ -150,10 +143,14 @@ void check_case(const std::filesystem::path& deck, const std::vector<std::string
     for (const auto& [name, value] : looked.facts) line(name.c_str(), value);
     line("internal variables", fmt::format("{}", built.system->layout().n_internal));
 
-    if (built.integrator->is_static())
+    // last: a step that fails ends the check, and what is said before may tell why
+    if (built.integrator->is_static()) {
+        State state = built.system->initial_state();
+        built.integrator->start(*built.system, state, StartReason::fresh);  // orders the unknowns
         print_cost_of_statics(built, out);
-    else
-        print_cost_of_steps(built, measured, out);
+    } else {
+        print_cost_of_steps(built, measure_steps(built), out);
+    }
 }
 
 }  // namespace gneiss

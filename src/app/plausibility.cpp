@@ -286,14 +286,27 @@ std::vector<Vec2<double>> unbalanced_forces(const Case& built, std::span<const s
 void Inspection::stress_in_situ() {
     double stress = 0;
     const auto centroids = element_centroids(mesh);
+    // by how much a stress varies within elements, which have one value each: what that leaves at their nodes is no
+    // fault
+    std::vector<double> varies(mesh.n_nodes(), 0.0);
     for (std::size_t m = 0; m < options.materials.size(); ++m) {
         const auto& given = options.materials[m].in_situ_stress;
         if (std::ranges::all_of(given, &Formula::is_zero)) continue;
         for (const Formula& part : given) {
             const CompiledFormula value(part, "xy");
             for (std::size_t e = 0; e < mesh.n_elements(); ++e)
-                if (material_of[e] == static_cast<std::int32_t>(m))
-                    stress = std::max(stress, std::abs(value(centroids[e][0], centroids[e][1])));
+                if (material_of[e] == static_cast<std::int32_t>(m)) {
+                    const double inside = value(centroids[e][0], centroids[e][1]);
+                    stress = std::max(stress, std::abs(inside));
+                    const std::span nodes(mesh.element(e), static_cast<std::size_t>(mesh.nodes_per_element()));
+                    double most = 0;
+                    for (const std::int32_t node : nodes) {
+                        const auto& x = mesh.nodes[static_cast<std::size_t>(node)];
+                        most = std::max(most, std::abs(value(x[0], x[1]) - inside));
+                    }
+                    for (const std::int32_t node : nodes)
+                        varies[static_cast<std::size_t>(node)] = std::max(varies[static_cast<std::size_t>(node)], most);
+                }
         }
     }
     if (stress == 0 || !options.walls.empty()) return;  // what walls carry shows under way alone
@@ -309,13 +322,25 @@ void Inspection::stress_in_situ() {
         for (int k = 0; k < n; ++k) area_at[at(static_cast<std::size_t>(mesh.element(e)[k]))] += areas[e] / n;
     double worst = 0;
     std::size_t where = 0;
+    Vec2<double> sum{0, 0};  // in which what single elements leave cancels
     for (std::size_t node = 0; node < mesh.n_nodes(); ++node) {
+        if (at(node) == node) sum += forces[node];
         const double traction =
-            std::hypot(forces[node].x, forces[node].y) / (options.solid.thickness * std::sqrt(area_at[at(node)]));
+            std::hypot(forces[node].x, forces[node].y) / (options.solid.thickness * std::sqrt(area_at[at(node)])) -
+            2 * varies[node];
         if (traction > worst) {
             worst = traction;
             where = node;
         }
+    }
+    const double in_all = std::hypot(sum.x, sum.y) / (options.solid.thickness * std::max(width, height));
+    if (worst < out_of_balance * stress && in_all > 3 * out_of_balance * stress) {
+        warn(
+            "in_situ_stress of up to {:.4g} Pa is out of balance at the start: forces of {:.3g} N in x and {:.3g} N in "
+            "y in all have "
+            "nothing to match them: is a weight missing?",
+            stress, sum.x, sum.y);
+        return;
     }
     if (worst < out_of_balance * stress) return;
     std::string on = "inside";

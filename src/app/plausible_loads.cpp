@@ -50,18 +50,25 @@ double shortest_time_of(const AmplitudeOptions& options, const Amplitude& amplit
         return shortest;
     }
     if (options.kind != Kind::expression) return 0;
-    double last_turn = times.front(), shortest = 0, before = 0;
+    double begins = times.front(), shortest = 0, before = 0;  // of the piece that rises or falls
+    bool is_whole = false;                                    // whether it began at a turning point
+    double first = 0;
     for (std::size_t i = 1; i < times.size(); ++i) {
         const double change =
             amplitude.value(times[i], times[i], x, y) - amplitude.value(times[i - 1], times[i - 1], x, y);
         if (change * before < 0) {
-            const double length = times[i] - last_turn;
-            shortest = shortest > 0 ? std::min(shortest, length) : length;
-            last_turn = times[i];
+            const double length = times[i - 1] - begins;
+            if (!is_whole)
+                first = length;
+            else
+                shortest = shortest > 0 ? std::min(shortest, length) : length;
+            is_whole = true;
+            begins = times[i - 1];
         }
+        if (change != 0 && before == 0) begins = times[i - 1];
         if (change != 0) before = change;
     }
-    return shortest;
+    return shortest > 0 ? shortest : first;
 }
 
 /// Some of many points.

@@ -256,14 +256,20 @@ void Run::begin() {
 void Run::write_rows(const State& state, std::size_t step, double dt, std::span<const double> reactions) {
     const EnergyLedger energies = ledger(state);
     judge_balance(state.t, energies);
-    std::vector<double> row = history_row(state.t, step, dt, energies);
+    // a step that ends where a row is due does so but for round-off
+    const double t = schedule_->row_time(state.t);
+    const auto at_time = [t](std::vector<double> row) {
+        row.front() = t;
+        return row;
+    };
+    std::vector<double> row = history_row(t, step, dt, energies);
     if (case_.cracking != nullptr) add_crack_columns(*case_.cracking, state, row);
     add_model_columns(*case_.system, state, row);
     history_file_->row(row);
-    if (probes_file_) probes_file_->row(case_.probes.row(*case_.system, state));
+    if (probes_file_) probes_file_->row(at_time(case_.probes.row(*case_.system, state)));
     if (reactions_file_ && case_.reactions.n_constraints() != case_.system->constraints().size())
         case_.reactions = ReactionTable(*case_.mesh, case_.options.boundaries, case_.system->constraints());
-    if (reactions_file_) reactions_file_->row(case_.reactions.row(state.t, reactions));
+    if (reactions_file_) reactions_file_->row(case_.reactions.row(t, reactions));
 }
 
 void Run::judge_balance(double t, const EnergyLedger& energies) {
@@ -406,7 +412,8 @@ int Run::end_failed(const std::exception& error) {
             log_->error("{}", again.what());
             integrator_stands_ = false;
         }
-        if (history_file_->last_time() != state_.t) write_rows(state_, progress_.step, last_dt_, reactions());
+        if (history_file_->last_time() != schedule_->row_time(state_.t))
+            write_rows(state_, progress_.step, last_dt_, reactions());
     }
     write_frame();
     return end(RunStatus::failed, message, exit_code::failed);

@@ -72,6 +72,10 @@ bool Schedule::row_due(const StepReport& step) const {
     return (rows_at_times_ ? history_.arrived(step) : history_.passed(step)) || is_last(step);
 }
 
+double Schedule::row_time(double t) const {
+    return rows_at_times_ && history_.contains(t) ? history_.time(history_.number(t)) : t;
+}
+
 std::vector<double> Schedule::rows_between(double from, double to) const {
     std::vector<double> times;
     if (!rows_at_times_) return times;

@@ -50,6 +50,8 @@ public:
     double next_look(double t) const;
 
     bool row_due(const StepReport& step) const;
+    /// The time that a row at t stands for, s: the one that was asked for, where t is that but for round-off.
+    double row_time(double t) const;
     /// Times of rows between two instants, s, that are to be interpolated.
     std::vector<double> rows_between(double from, double to) const;
     bool frame_due(const StepReport& step) const;

@@ -80,12 +80,5 @@ TEST(BuildCase, BadMesh_ComesAloneWithAllItsMistakes) {
     EXPECT_THAT(error, HasSubstr("cells"));
 }
 
-TEST(BuildCase, FieldTimeAfterTheEnd_IsWarnedOf) {
-    CaseOptions options = square_options();
-    options.output.field_times = {5e-4, 1e-3, 2e-3};
-    EXPECT_THAT(build_case(options).warnings,
-                testing::ElementsAre("output.field_times: 0.002 s is after run.t_end, 0.001 s: no frame then"));
-}
-
 }  // namespace
 }  // namespace gneiss

@@ -77,10 +77,13 @@ protected:
     /// hundredth, unless balance_may_be_out.
     /// @param meanwhile  called with the process's number while it runs
     Ended gneiss(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) const {
+        std::vector<std::string> given = arguments;
+        if (overwrites && !given.empty() && (given[0] == "run" || given[0] == "compare"))
+            given.insert(given.begin() + 1, "--overwrite");
         const pid_t child = ::fork();
         if (child == 0) {
             std::vector<char*> argv{const_cast<char*>(GNEISS_PROGRAM)};
-            for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+            for (const std::string& argument : given) argv.push_back(const_cast<char*>(argument.c_str()));
             argv.push_back(nullptr);
             const bool ready = ::chdir(folder.c_str()) == 0 && redirect("stdout.txt", STDOUT_FILENO) &&
                                redirect("stderr.txt", STDERR_FILENO);
@@ -113,6 +116,7 @@ protected:
 
     std::filesystem::path folder;
     bool balance_may_be_out = false;
+    bool overwrites = true;  ///< runs and comparisons are called with --overwrite
 
 private:
     static bool redirect(const char* name, int descriptor) {

@@ -14,7 +14,10 @@ using ::testing::HasSubstr;
 
 class ProgramFolder : public test::ProgramTest {
 protected:
-    ProgramFolder() { put("case.toml", small_deck); }
+    ProgramFolder() {
+        put("case.toml", small_deck);
+        overwrites = false;
+    }
 
     /// Calls the program while another run, far too long to end, is at work in results/case; then kills that one.
     Ended beside_a_run(const std::vector<std::string>& arguments) {

@@ -40,7 +40,7 @@ boundary = [{ on = "left", type = "fixed" }]
 const std::string adaptive_schemes = R"toml(
 [compare]
 samples = 10
-reference = { type = "central_difference", safety = 0.05 }
+reference = { type = "central_difference", safety = 0.02 }
 [[compare.scheme]]
 name = "bdf"
 integrator = { type = "cvode", rtol = RTOL, stability_detection = false }
@@ -77,12 +77,13 @@ protected:
 };
 
 TEST_F(ProgramPulse, LoadAfterARest_IsSeenByEverySchemeThatChoosesItsSteps) {
-    // local errors of 1e-5 add up over some hundred steps; a load that is missed is an error of 1
-    constexpr double seen = 0.02;
+    // local errors of 1e-5 add up over some hundred steps, to 0.03 at the kinks of a shaken support; a load that is
+    // missed is an error of 1
+    constexpr double seen = 0.05;
     for (const std::string& deck : {pulse, shaken, passing}) {
         const nlohmann::json json = compared(deck);
         ASSERT_EQ(json.at("runs").size(), 8u);
-        // order 2 at a twentieth of the critical step
+        // order 2 at a fiftieth of the critical step
         EXPECT_LT(json.at("reference_check").at("error_displacement"), 1e-3);
         for (const auto& run : json.at("runs"))
             EXPECT_LT(run.at("error_displacement"), seen) << run.at("scheme") << " of " << deck;

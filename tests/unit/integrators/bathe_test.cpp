@@ -74,14 +74,14 @@ TEST(Bathe, LinearProblemWithEqualSteps_FactorisesOnce) {
 }
 
 TEST(Bathe, OneForceThatFails_WhereverInTheStep_HalvesIt) {
-    for (int n = 0; n < 6; ++n) {
+    for (int n = 0; n < 4; ++n) {
         test::Oscillator system(test::two_nodes());
         const auto integrator = with(0.5, 0.125);
         State state = system.initial_state();
         integrator->start(system, state, StartReason::fresh);
         system.fail_after(n);
         const StepReport step = integrator->advance(system, state, 1);
-        // either sub-step is evaluated before and after its one correction, and once when it is accepted
+        // either sub-step is evaluated before and after its one correction
         EXPECT_EQ(step.n_rejected, 1u) << n;
         EXPECT_EQ(step.t, 0.0625);
     }

@@ -154,7 +154,6 @@ TEST(SundialsOde, StateWithinAStep_IsAsExactAsItsEnd) {
             return integrator->kinetic_energy(system, at) + system.stored_energies(at).sum() + path.damping +
                    path.absorbing - path.external_work - path.support_work;
         };
-        const double before = energy(state);
         double start = 0;
         std::size_t n_steps = 0;
         for (double next = 0.7; state.t < next; ++n_steps) {
@@ -168,7 +167,8 @@ TEST(SundialsOde, StateWithinAStep_IsAsExactAsItsEnd) {
             const State exact = runge_kutta(system, at.t, test::oscillator_reference_step);
             // as Error_FollowsTheTolerance of the contract
             EXPECT_LT(test::distance(at, exact), 10 * static_cast<double>(n_steps) * 1e-8) << integrator->name();
-            EXPECT_NEAR(energy(at), before, 1e-6 * std::abs(at.path.external_work)) << integrator->name();
+            // the rule of order 4 over a part of the step; the table of order 8 takes steps of 0.04
+            EXPECT_NEAR(energy(at), energy(state), 2e-6 * std::abs(at.path.external_work)) << integrator->name();
         }
         // at the end it is the state itself
         integrator->state_within(system, state.t, at, reactions);
