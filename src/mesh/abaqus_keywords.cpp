@@ -59,17 +59,24 @@ AbaqusKeyword keyword_of(const std::string& line, std::string where) {
 class Reader {
 public:
     std::vector<AbaqusKeyword> read(const fs::path& file) {
-        add(file, 0);
+        add(file, 0, "");
         return std::move(keywords_);
     }
 
 private:
+    /// @param from  file and line that name it; empty: none does
+    static std::ifstream opened(const fs::path& file, const std::string& from) {
+        std::ifstream stream(file);
+        if (!stream && from.empty()) throw InputError(file.string(), "cannot be opened for reading");
+        if (!stream) throw InputError(from, fmt::format("names {}, which cannot be opened for reading", file.string()));
+        return stream;
+    }
+
     /// @return false where the rest is no mesh any more
-    bool add(const fs::path& file, int depth) {
+    bool add(const fs::path& file, int depth, const std::string& from) {
         constexpr int deepest = 20;
         if (depth > deepest) throw InputError(file.string(), "files include each other");
-        std::ifstream stream(file);
-        if (!stream) throw InputError(file.string(), "cannot be opened for reading");
+        std::ifstream stream = opened(file, from);
         std::string line, whole;
         bool goes_on = false;  // the line before ended in a comma
         for (int number = 1; std::getline(stream, line); ++number) {
@@ -85,12 +92,12 @@ private:
                 goes_on = false;
                 if (keyword.name == "STEP") return false;
                 if (keyword.name == "INCLUDE") {
-                    if (!add(file.parent_path() / keyword.value("INPUT"), depth + 1)) return false;
+                    if (!add(file.parent_path() / keyword.value("INPUT"), depth + 1, where)) return false;
                     continue;
                 }
                 const std::string input = keyword.value("INPUT");
                 keywords_.push_back(std::move(keyword));
-                if (!input.empty()) read_data(file.parent_path() / input);
+                if (!input.empty()) read_data(file.parent_path() / input, where);
                 continue;
             }
             if (keywords_.empty())
@@ -102,9 +109,8 @@ private:
     }
 
     /// Lines of data in a file of their own.
-    void read_data(const fs::path& file) {
-        std::ifstream stream(file);
-        if (!stream) throw InputError(file.string(), "cannot be opened for reading");
+    void read_data(const fs::path& file, const std::string& from) {
+        std::ifstream stream = opened(file, from);
         std::string line;
         bool goes_on = false;
         while (std::getline(stream, line)) {
@@ -118,7 +124,8 @@ private:
     void add_data(const std::string& line, bool goes_on) {
         auto& data = keywords_.back().data;
         std::vector<std::string> entries = entries_of(line);
-        if (goes_on && !data.empty())
+        const bool is_whole = keywords_.back().name == "NODE";  // each node has a line, whatever that ends in
+        if (goes_on && !data.empty() && !is_whole)
             data.back().insert(data.back().end(), entries.begin(), entries.end());
         else
             data.push_back(std::move(entries));

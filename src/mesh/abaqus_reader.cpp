@@ -15,6 +15,7 @@
 #include "mesh/abaqus_keywords.hpp"
 #include "mesh/check.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/loose.hpp"
 
 namespace gneiss {
 namespace {
@@ -54,8 +55,8 @@ struct Part {
 std::size_t nodes_of_triangle(const std::string& type) {
     static const std::set<std::string> three{"CPS3", "CPE3", "CPE3H", "CPEG3", "CPEG3H", "CPS3T", "CPE3T", "M3D3",
                                              "S3",   "S3R",  "S3RS",  "STRI3", "DC2D3",  "AC2D3", "R3D3",  "SFM3D3"},
-        six{"CPS6", "CPS6M",  "CPE6",  "CPE6H", "CPE6M", "CPE6MH", "CPEG6", "CPEG6M",
-            "M3D6", "STRI65", "DC2D6", "AC2D6", "CPS6T", "CPS6MT", "CPE6T", "CPE6MT"};
+        six{"CPS6", "CPS6M",  "CPE6",  "CPE6H", "CPE6M", "CPE6MH", "CPEG6", "CPEG6M", "M3D6",
+            "S6",   "STRI65", "DC2D6", "AC2D6", "CPS6T", "CPS6MT", "CPE6T", "CPE6MT"};
     return three.contains(type) ? 3 : six.contains(type) ? 6 : 0;
 }
 
@@ -87,6 +88,23 @@ std::optional<double> real_in(std::string text) {
     std::ranges::replace(text, 'D', 'e');
     std::ranges::replace(text, 'd', 'e');
     return text.empty() ? std::optional(0.0) : number_in<double>(text);
+}
+
+using Lines = std::vector<std::vector<std::string>>;
+
+/// Lines that all end in a comma have become one: they are parted again.
+/// @param n  entries that each has
+Lines one_a_line(const Lines& joined, std::size_t n) {
+    Lines lines;
+    for (const auto& line : joined) {
+        if (line.size() % n != 0) {
+            lines.push_back(line);
+            continue;
+        }
+        for (auto first = line.begin(); first != line.end(); first += static_cast<std::ptrdiff_t>(n))
+            lines.emplace_back(first, first + static_cast<std::ptrdiff_t>(n));
+    }
+    return lines;
 }
 
 class AbaqusReader {
@@ -138,7 +156,8 @@ private:
         if (name == "NSET") take_set(keyword, scope(keyword).node_sets, "NSET");
         if (name == "ELSET") take_set(keyword, scope(keyword).element_sets, "ELSET");
         if (name == "SURFACE") take_surface(keyword);
-        if (name == "PART") open_part_ = capitals(keyword.value("NAME"));
+        if (name == "PART")
+            parts_.try_emplace(open_part_ = capitals(keyword.value("NAME")));  // may stay empty: all in the instance
         if (name == "END PART") open_part_.clear();
         if (name == "INSTANCE") take_instance(keyword);
         if (name == "END INSTANCE") open_instance_ = false;
@@ -174,7 +193,7 @@ private:
                                               type));
         Part& part = scope(keyword);
         Set* const set = set_of(part.element_sets, keyword, "ELSET");
-        for (const auto& line : keyword.data) {
+        for (const auto& line : one_a_line(keyword.data, n + 1)) {
             Element element{0, is_triangle, {}};
             bool good = line.size() > n;
             for (std::size_t i = 0; i <= n && good; ++i) {
@@ -406,13 +425,7 @@ private:
     }
 
     void check_plane() {
-        double extent = 0;
-        for (std::size_t n = 0; n < heights_.size(); ++n)
-            extent = std::max({extent, std::abs(draft_.nodes[n][0]), std::abs(draft_.nodes[n][1])});
-        constexpr double flatness = 1e-9;  // of the largest coordinate
-        std::vector<std::int64_t> off;
-        for (std::size_t n = 0; n < heights_.size(); ++n)
-            if (!(std::abs(heights_[n] - heights_[0]) <= flatness * extent)) off.push_back(draft_.node_labels[n]);
+        const std::vector<std::int64_t> off = off_plane(draft_, heights_);
         if (!off.empty())
             problems_.push_back({draft_.where, fmt::format("the mesh must lie in a plane z = constant: {} {} not",
                                                            numbered("node", off), off.size() == 1 ? "does" : "do")});
@@ -432,6 +445,7 @@ private:
 
 MeshDraft read_abaqus(const std::filesystem::path& file) {
     MeshDraft draft = AbaqusReader(file).read();
+    drop_loose_names(draft);
     add_mid_sides(draft);
     return draft;
 }

@@ -12,7 +12,10 @@
 
 #include "mesh/check.hpp"
 #include "mesh/geo_file.hpp"
+#include "mesh/geometry.hpp"
 #include "mesh/gmsh_session.hpp"
+#include "mesh/loose.hpp"
+#include "mesh/mesh_file_kind.hpp"
 
 namespace gneiss {
 namespace {
@@ -41,6 +44,7 @@ public:
         refuse_solids();
         read_nodes();
         read_triangles();
+        check_plane();
         read_lines();
         read_points();
         if (problems_.empty()) read_data();
@@ -93,19 +97,24 @@ private:
         Tags tags;
         std::vector<double> x, parametric;
         gmsh::model::mesh::getNodes(tags, x, parametric, -1, -1, false, false);
-        double extent = 0;
-        for (double component : x) extent = std::max(extent, std::abs(component));
-        constexpr double flatness = 1e-9;  // of the largest coordinate: text files keep 16 digits, older ones fewer
-        std::vector<std::size_t> off_plane;
         for (std::size_t n = 0; n < tags.size(); ++n) {
-            number_of_node_.emplace(tags[n], static_cast<std::int32_t>(n));
-            draft_.nodes.push_back({x[3 * n], x[3 * n + 1]});
+            const Point2 at{x[3 * n], x[3 * n + 1]};
+            const auto [entry, is_new] = number_of_node_.emplace(tags[n], static_cast<std::int32_t>(n));
+            if (!is_new && draft_.nodes[static_cast<std::size_t>(entry->second)] != at)
+                error(fmt::format(
+                    "two nodes have the number {}: nodes are numbered from 1 (Gmsh takes a node 0 for node 1)",
+                    tags[n]));
+            draft_.nodes.push_back(at);
             draft_.node_labels.push_back(static_cast<std::int64_t>(tags[n]));
-            if (!(std::abs(x[3 * n + 2] - x[2]) <= flatness * extent)) off_plane.push_back(tags[n]);
+            heights_.push_back(x[3 * n + 2]);
         }
-        if (!off_plane.empty())
-            error(fmt::format("the mesh must lie in a plane z = constant: node {} does not ({} such)", off_plane[0],
-                              off_plane.size()));
+    }
+
+    void check_plane() {
+        const std::vector<std::int64_t> off = off_plane(draft_, heights_);
+        if (!off.empty())
+            error(fmt::format("the mesh must lie in a plane z = constant: node {} does not ({} such)", off[0],
+                              off.size()));
     }
 
     std::int32_t node(std::size_t tag) const { return number_of_node_.at(tag); }
@@ -261,6 +270,7 @@ private:
     MeshDraft draft_;
     const bool is_version_2_;
     std::vector<Problem> problems_;
+    std::vector<double> heights_;  ///< z of the draft's nodes, m
     std::unordered_map<std::size_t, std::int32_t> number_of_node_;
 };
 
@@ -300,23 +310,31 @@ void check_msh(const fs::path& file) {
 /// Gmsh's word on a view that does not belong to a mesh.
 bool is_list_of_a_script(const std::string& error) { return error.find("contain model data") != std::string::npos; }
 
+/// Partitions in a file of version 2 that Gmsh cannot follow: it goes on without, and they are of no use here.
+bool is_about_partitions(const std::string& error) {
+    return error.find("All elements are not partitioned") != std::string::npos ||
+           error.find("Partition tag cannot be") != std::string::npos;
+}
+
 }  // namespace
 
 MeshDraft read_gmsh(const fs::path& file, const std::map<std::string, double>& parameters, bool aloud) {
     const std::string where = file.string();
     if (!fs::is_regular_file(file)) throw InputError(where, "there is no such file");
-    const bool is_geo = file.extension() == ".geo";
+    const bool is_geo = mesh_file_kind(file) == MeshFileKind::geo;
     if (!is_geo) check_msh(file);
     GmshSession session(aloud);
     if (is_geo)
         mesh_geo(session, file, parameters);
     else
-        session.run(where, [&] { gmsh::merge(where); });
+        session.run(
+            where, [&] { gmsh::merge(where); }, is_about_partitions);
     const std::vector<std::string> warnings = session.warnings();
     MeshDraft draft = session.run(
         where, [&] { return ModelReader(where, !is_geo && is_version_2(file)).read(); }, is_list_of_a_script);
     draft.report_unused_nodes = !is_geo;  // a .geo has construction points, the centres of arcs for one
     draft.warnings.insert(draft.warnings.end(), warnings.begin(), warnings.end());
+    drop_loose_names(draft);
     add_mid_sides(draft);
     return draft;
 }

@@ -14,6 +14,7 @@
 #include "mesh/composite.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/inner_lines.hpp"
+#include "mesh/mesh_file_kind.hpp"
 #include "mesh/mesh_process.hpp"
 
 namespace gneiss {
@@ -24,7 +25,7 @@ using NodePair = std::pair<std::int32_t, std::int32_t>;
 MeshDraft draft_of(const MeshOptions& options, const std::filesystem::path& base_dir) {
     switch (options.source) {
         case MeshOptions::Source::file:
-            return std::filesystem::path(options.file).extension() == ".inp"
+            return mesh_file_kind(options.file) == MeshFileKind::abaqus
                        ? read_abaqus(base_dir / options.file)
                        : read_gmsh_apart(base_dir / options.file, options.parameters);
         case MeshOptions::Source::rectangle:

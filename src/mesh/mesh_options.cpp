@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh/generators.hpp"
+#include "mesh/mesh_file_kind.hpp"
 
 namespace gneiss {
 namespace {
@@ -24,10 +25,10 @@ void validate_file(std::vector<Problem>& problems, const MeshOptions& options) {
         problems.push_back({"mesh", "file is missing: name a .msh, .geo or .inp file"});
         return;
     }
-    const std::string extension = std::filesystem::path(options.file).extension();
-    if (extension != ".msh" && extension != ".geo" && extension != ".inp")
+    const MeshFileKind kind = mesh_file_kind(options.file);
+    if (kind == MeshFileKind::other)
         problems.push_back({"mesh", fmt::format("file = \"{}\" must end in .msh, .geo or .inp", options.file)});
-    if ((extension == ".msh" || extension == ".inp") && !options.parameters.empty())
+    if ((kind == MeshFileKind::msh || kind == MeshFileKind::abaqus) && !options.parameters.empty())
         problems.push_back({"mesh", "parameters belong to a .geo file; others are read as they are"});
     for (const auto& [name, value] : options.parameters)
         if (!std::isfinite(value))

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/deck/keys.hpp"
+#include "mesh/mesh_file_kind.hpp"
 
 namespace gneiss::deck {
 namespace {
@@ -25,9 +26,7 @@ bool read_parameters(const Value& value, TableReader&, MeshOptions& out) {
     return good;
 }
 
-bool is_mesh_file(std::string_view name) {
-    return name.ends_with(".msh") || name.ends_with(".geo") || name.ends_with(".inp");
-}
+bool is_mesh_file(const std::filesystem::path& name) { return mesh_file_kind(name) != MeshFileKind::other; }
 
 /// Why a mesh file cannot be read, and what there is in its place; empty if it is there.
 std::string why_missing(const std::filesystem::path& file) {
@@ -38,7 +37,7 @@ std::string why_missing(const std::filesystem::path& file) {
     if (!fs::is_directory(folder, error)) return fmt::format("there is no folder {}", folder.string());
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder, error))
-        if (is_mesh_file(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+        if (is_mesh_file(entry.path())) names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     std::string text = fmt::format("no such file in {}", folder.string());
     constexpr std::size_t most_names = 10;

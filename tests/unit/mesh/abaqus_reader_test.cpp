@@ -188,7 +188,54 @@ TEST_F(AbaqusFile, NodesBesideTheMesh_AreLeftOutOfSets) {
     EXPECT_THAT(report.warnings, ::testing::Contains("set \"foot\": node 99 belong to no triangle and are left out"));
 }
 
+TEST_F(AbaqusFile, MeshWithinAnInstanceOfAnEmptyPart_IsRead) {
+    const Mesh mesh =
+        read("*Part, name=Block\n*End Part\n*Assembly, name=Assembly\n*Instance, name=Block-1, part=Block\n" +
+             square_inp.substr(square_inp.find("*NODE")) + "*End Instance\n*End Assembly\n");
+    EXPECT_NEAR(total_area(mesh), 4, round_off);
+    EXPECT_THAT(names_of_regions(mesh), UnorderedElementsAre("Surface1", "Surface2", "rock"));
+}
+
+TEST_F(AbaqusFile, LinesThatAllEndInAComma_AreANodeOrAnElementEach) {
+    const Mesh mesh = read(R"(*NODE
+1, 0, 0,
+2, 2, 0,
+3, 2, 2,
+4, 0, 2,
+*ELEMENT, TYPE=CPS3, ELSET=all
+11, 1, 2, 3,
+12, 1, 3, 4,
+)");
+    EXPECT_EQ(mesh.n_elements(), 2u);
+    EXPECT_NEAR(total_area(mesh), 4, round_off);
+    EXPECT_THAT(report.warnings, IsEmpty());
+}
+
+TEST_F(AbaqusFile, ShellOfSixNodes_IsATriangle) {
+    const Mesh mesh = read(
+        "*NODE\n1, 0, 0\n2, 2, 0\n3, 0, 2\n4, 1, 0\n5, 1, 1\n6, 0, 1\n"
+        "*ELEMENT, TYPE=S6\n1, 1, 2, 3, 4, 5, 6\n");
+    EXPECT_NEAR(total_area(mesh), 2, round_off);
+}
+
+TEST_F(AbaqusFile, ReferenceNodeOffThePlane_IsLeftOut) {
+    const Mesh mesh = read(replaced(square_inp, "4, 0, 2, 0\n", "4, 0, 2, 0\n99, 1, 1, 5\n"));
+    EXPECT_EQ(mesh.n_elements(), 2u);
+    EXPECT_THAT(report.warnings, ElementsAre("left out, they belong to no element: node 99"));
+}
+
+TEST_F(AbaqusFile, EndingInCapitals_IsRead) {
+    folder.write("CASE.INP", square_inp);
+    MeshOptions options;
+    options.source = MeshOptions::Source::file;
+    options.file = "CASE.INP";
+    EXPECT_EQ(make_mesh(options, true, folder.path()).n_elements(), 2u);
+}
+
 TEST_F(AbaqusFile, WhatIsWrong_IsReportedWithItsLine) {
+    EXPECT_EQ(error_of("*HEADING\n*INCLUDE, INPUT=nodes.inp\n"),
+              file() + ":2: names " + (folder.path() / "nodes.inp").string() + ", which cannot be opened for reading");
+
     EXPECT_EQ(error_of(replaced(square_inp, "type=CPE3", "type=CPE4")),
               file() +
                   ":13: *ELEMENT: type CPE4: only plane triangles are read, CPS3, CPE3, CPS6 and CPE6, and trusses "

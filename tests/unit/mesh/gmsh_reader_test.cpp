@@ -215,6 +215,55 @@ TEST_F(GmshFile, Msh_OffThePlane_IsRefusedByNumber) {
                 HasSubstr("the mesh must lie in a plane z = constant: node 12 does not (1 such)"));
 }
 
+TEST_F(GmshFile, Msh_NodeOfNoElementOffThePlane_IsLeftOut) {
+    const Mesh mesh = read("square.msh", replaced(square_msh, "5 5 0\n", "5 5 3\n"));
+    EXPECT_EQ(mesh.n_elements(), 2u);
+    EXPECT_THAT(report.warnings, ElementsAre("left out, they belong to no element: node 9"));
+}
+
+TEST_F(GmshFile, Msh_NamesOfWhatBelongsToNoElement_AreLeftOut) {
+    const std::string text = replaced(square_msh, "1 10\n", "1 9\n");
+    const Mesh mesh = read("square.msh", replaced(text, "2 10 13\n", "2 10 9\n"));
+    EXPECT_EQ(mesh.n_elements(), 2u);
+    EXPECT_FALSE(mesh.node_sets.contains("foot"));
+    EXPECT_FALSE(mesh.boundaries.contains("wall"));
+    EXPECT_THAT(
+        report.warnings,
+        ElementsAre("curve \"wall\": what leads to node 9, of no element, is left out, and nothing of this name stays",
+                    "points \"foot\": node 9, of no element, left out, and nothing of this name stays",
+                    "left out, they belong to no element: node 9"));
+}
+
+TEST_F(GmshFile, Msh2_NodeZero_IsRefused) {
+    EXPECT_EQ(error_of("zero.msh",
+                       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n0 0 0 0\n1 2 0 0\n2 0 2 0\n$EndNodes\n"
+                       "$Elements\n1\n1 2 2 7 1 0 1 2\n$EndElements\n"),
+              in_folder("zero.msh") +
+                  ": two nodes have the number 1: nodes are numbered from 1 (Gmsh takes a node 0 for node 1)");
+}
+
+TEST_F(GmshFile, Msh2_PartitionsThatGmshCannotFollow_AreAWarning) {
+    const Mesh mesh = read("square.msh", R"($MeshFormat
+2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 2 0 0
+3 2 2 0
+4 0 2 0
+$EndNodes
+$Elements
+3
+0 1 3 1 1 1 2 3
+1 2 3 2 7 1 1 2 3
+2 2 3 2 7 2 1 3 4
+$EndElements
+)");
+    EXPECT_NEAR(total_area(mesh), 4, round_off);
+    EXPECT_THAT(report.warnings, Contains("Gmsh: All elements are not partitioned"));
+}
+
 TEST_F(GmshFile, Msh_SurfaceInNoGroup_IsRegionSolid) {
     const Mesh mesh = read("square.msh", replaced(square_msh, "2 0 0 0 2 2 0 1 5 0", "2 0 0 0 2 2 0 0 0"));
     EXPECT_THAT(mesh.region_names, ::testing::UnorderedElementsAre("rock", "solid"));
