@@ -14,7 +14,8 @@ from pathlib import Path
 # Folder of a layer -> what its files may include besides themselves: whole layers, or single headers.
 # Every folder of src/ is named here; tests may include everything.
 POINT = ["materials/point.hpp", "materials/viscous_stress.hpp"]  # what passes between an element and a law
-OPTIONS = ["src/mesh/mesh_options.hpp", "src/model/options.hpp"]  # plain structs that a deck is read into
+# plain structs that a deck is read into, and the kind of a file that it names
+OPTIONS = ["src/mesh/mesh_options.hpp", "src/mesh/mesh_file_kind.hpp", "src/model/options.hpp"]
 MAY_INCLUDE = {
     "src/base": [],
     "src/system": ["src/base"],
