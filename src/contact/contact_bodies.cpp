@@ -79,7 +79,7 @@ ContactBodies::ContactBodies(const PartedMesh& start, std::span<const double> la
     if (masses_.empty()) masses_.assign(start.mesh.connectivity.size(), 1.0);
     find_bodies(layers);
     add_edges(contour(bonded_mesh_));
-    fail(start.failed);
+    fail(start.failed, start.mesh);
     refresh(start.mesh);
 }
 
@@ -124,10 +124,19 @@ void ContactBodies::add_edges(std::span<const BoundaryEdge> contour) {
     potential_.add_boundary(added);
 }
 
-void ContactBodies::fail(std::span<const std::int32_t> sides) {
-    if (sides.empty()) return;
+/// @param mesh  as it is: a side is bonded still where its faces have a node of it in common, until they have not
+void ContactBodies::fail(std::span<const std::int32_t> sides, const Mesh& mesh) {
     std::vector<std::array<std::int32_t, 2>> added;
     const auto n = static_cast<std::size_t>(bonded_mesh_.nodes_per_element());
+    std::vector<SideNode> ends;
+    const auto add_ends = [&](std::int32_t s) {
+        const InnerSide& side = bonded_.sides()[index(s)];
+        const std::int32_t* left = mesh.element(index(side.left.element));
+        const std::span right(mesh.element(index(side.right.element)), n);
+        const auto local = side_nodes(mesh.kind, side.left.side);
+        for (std::int32_t place = 0; place < static_cast<std::int32_t>(local.size()); ++place)
+            if (std::ranges::find(right, left[local[index(place)]]) == right.end()) ends.push_back({s, place});
+    };
     for (const std::int32_t s : sides) {
         if (bonded_.is_open(s)) continue;
         const InnerSide& side = bonded_.sides()[index(s)];
@@ -139,13 +148,20 @@ void ContactBodies::fail(std::span<const std::int32_t> sides) {
                 if (face.element == side.left.element) added.push_back({nodes[local[k]], nodes[local[k + 1]]});
             }
         }
+        const std::size_t before = ends.size();
+        add_ends(s);
+        if (ends.size() > before) continue;
+        // alone inside the mesh: it parts nothing yet
+        for (const SideNode& end : bonded_.nodes_of(std::span(&s, 1))) ends.push_back(end);
     }
-    bonded_.open(sides);
-    potential_.add_boundary(added);
+    for (std::int32_t s = 0; s < static_cast<std::int32_t>(bonded_.sides().size()); ++s)
+        if (bonded_.is_open(s)) add_ends(s);
+    bonded_.open(ends);
+    if (!added.empty()) potential_.add_boundary(added);
 }
 
 void ContactBodies::follow(const Parting& parting) {
-    fail(parting.failed);
+    fail(parting.failed, parting.mesh);
     refresh(parting.mesh);
 }
 

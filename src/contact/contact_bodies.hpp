@@ -117,7 +117,7 @@ private:
     static Mesh put_together(const PartedMesh& start, std::span<const std::int32_t> original);
     void find_bodies(std::span<const double> layers);
     void add_edges(std::span<const BoundaryEdge> contour);
-    void fail(std::span<const std::int32_t> sides);
+    void fail(std::span<const std::int32_t> sides, const Mesh& mesh);
     void refresh(const Mesh& mesh);
     std::vector<BoundaryEdge> edges_of(const Mesh& mesh) const;
 

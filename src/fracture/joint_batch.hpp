@@ -4,7 +4,8 @@
 // History: for each pack 1, or 0 while nothing has happened to any of its joints, and then all of it is zero. Behind
 // them, pack by pack, members of the law's history at both ends, then when the joints failed and in which mode; of
 // extrinsic ones also by how much each end is stronger than its properties say. Packs follow each other, so that joints
-// are appended. A time of failure below zero says that contact has taken over.
+// are appended. A time of failure below zero says that contact has taken over; a mode below zero, of a joint that has
+// not failed, that contact sees its faces while one end holds.
 
 #include <omp.h>
 #include <algorithm>
@@ -100,6 +101,11 @@ private:
     }
     static constexpr std::size_t member_row(std::size_t point, std::size_t member) {
         return point * n_members + member;
+    }
+    static constexpr std::size_t member_number(Pack History::*which) {
+        std::size_t number = 0;
+        while (History::members[number] != which) ++number;
+        return number;
     }
     /// Whether nothing has happened to the joints of a pack.
     static bool untouched(std::span<const double> history, std::size_t pack) { return history[pack] == 0; }

@@ -145,8 +145,7 @@ JointState JointBatch<Law, extrinsic>::state_of(std::size_t joint, const State& 
     JointState result{};
     const auto motion = motion_of(joint, state.u);
     const auto member = [&](Pack History::*which, std::size_t point) {
-        const auto found = std::ranges::find(History::members, which);
-        return history[entry(joint, member_row(point, static_cast<std::size_t>(found - History::members.begin())))];
+        return history[entry(joint, member_row(point, member_number(which)))];
     };
     for (std::size_t k = 0; k < joint_nodes; ++k) result.nodes[k] = node(joint, k);
     result.side = sides_[joint];
@@ -185,30 +184,36 @@ double JointBatch<Law, extrinsic>::cracked_length(std::span<const double> histor
 
 template <class Law, bool extrinsic>
 bool JointBatch<Law, extrinsic>::any_failed(std::span<const double> history) const {
-    for (std::size_t pack = 0; pack < n_packs(); ++pack)
-        if (!untouched(history, pack) && any_lane(row(history, pack, failure_row) > Pack(0.0))) return true;
+    for (std::size_t pack = 0; pack < n_packs(); ++pack) {
+        if (untouched(history, pack)) continue;
+        const Pack failed = row(history, pack, failure_row);
+        Pack damage(0.0);
+        for (std::size_t i = 0; i < joint_points; ++i)
+            damage = xsimd::max(damage, row(history, pack, member_row(i, member_number(&History::damage))));
+        const auto one_end =
+            (failed == Pack(0.0)) && (row(history, pack, mode_row) >= Pack(0.0)) && (damage >= Pack(1.0));
+        if (any_lane((failed > Pack(0.0)) || one_end)) return true;
+    }
     return false;
 }
 
 template <class Law, bool extrinsic>
 std::vector<std::int32_t> JointBatch<Law, extrinsic>::sides_let_go(const State& accepted,
                                                                    std::span<const double> history) const {
-    constexpr auto offset_row = [] {
-        std::size_t row = 0;
-        if constexpr (extrinsic)
-            while (History::members[row] != &History::opening_offset) ++row;
-        return row;
-    }();
     const auto lets_go = [&](std::size_t joint) {
-        if (untouched(history, joint / pack_width) || !(history[entry(joint, failure_row)] > 0)) return false;
+        const double failed = history[entry(joint, failure_row)];
+        if (untouched(history, joint / pack_width) || failed < 0) return false;
+        if (failed == 0 && history[entry(joint, mode_row)] < 0) return false;  // contact sees its faces already
         const auto motion = motion_of(joint, accepted.u);
-        bool open = true, far = false;
+        bool open = failed > 0, far = false;
         for (std::size_t i = 0; i < joint_points; ++i) {
             // an end that presses from the start does so until it has opened by what its spring was compressed
             double offset = preload_.empty() ? 0 : preload_[preloaded(joint, i)];
-            if constexpr (extrinsic) offset = history[entry(joint, member_row(i, offset_row))];
+            if constexpr (extrinsic)
+                offset = history[entry(joint, member_row(i, member_number(&History::opening_offset)))];
             open = open && motion.opening[i] >= std::max(0.0, -offset);
-            far = far || std::max(motion.opening[i], std::abs(motion.slip[i])) > far_way * motion.length;
+            const bool holds = history[entry(joint, member_row(i, member_number(&History::damage)))] < 1;
+            far = far || (!holds && std::max(motion.opening[i], std::abs(motion.slip[i])) > far_way * motion.length);
         }
         return open || far;
     };
@@ -232,6 +237,7 @@ double JointBatch<Law, extrinsic>::hand_over(std::span<const std::int32_t> sides
         const std::size_t last = last_of_side_[static_cast<std::size_t>(side)];
         for (std::size_t joint = last; joint != nowhere && sides_[joint] == side; --joint) {
             double& failed = history[entry(joint, failure_row)];
+            if (failed == 0) history[entry(joint, mode_row)] = -1;  // it goes on to hold
             failed = -std::abs(failed);
             if (joint == 0) break;
         }

@@ -68,12 +68,13 @@ public:
     virtual std::pair<std::int32_t, bool> failure(std::size_t joint, std::span<const double> history) const = 0;
     virtual JointState state_of(std::size_t joint, const State& state, std::span<const double> history) const = 0;
 
-    /// Whether any joint has failed and has not been handed over.
+    /// Whether any joint has failed, at one end at least, and has not been handed over.
     virtual bool any_failed(std::span<const double> history) const = 0;
     /// Sides all of whose joints have failed and let go: open at both ends, or with an end that has opened or slid by
-    /// more than a part of the length, past which the ends no longer lie opposite each other. Ascending.
+    /// more than a part of the length, past which the ends no longer lie opposite each other. So do those whose faces
+    /// have turned about an end that holds, the other one being that far. Ascending.
     virtual std::vector<std::int32_t> sides_let_go(const State& accepted, std::span<const double> history) const = 0;
-    /// From here on there is no force between these sides.
+    /// From here on there is no force between these sides, but at ends of joints that have not failed.
     /// @return what was still stored there, J
     virtual double hand_over(std::span<const std::int32_t> sides, const State& accepted,
                              std::span<double> history) const = 0;

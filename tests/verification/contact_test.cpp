@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include "app/build_case.hpp"
 #include "io/deck/deck.hpp"
@@ -271,6 +273,63 @@ TEST(StressInSitu, InEquilibrium_NothingMoves_WithJointsAndWallsAsWithoutThem) {
                 EXPECT_EQ(run.ledger.path.fracture, 0);
                 EXPECT_LT(run.ledger.kinetic, 1e-20);
             }
+}
+
+/// Two blocks, the upper one of which turns about the left end of their seam.
+constexpr const char* book = R"(
+mesh = { generator = "rectangle", width = 0.01, height = 0.02, origin = [0.0, -0.01], cells = [1, 2], lines = [{ name = "seam", from = [0.0, 0.0], to = [0.01, 0.0] }] }
+solid = { plane = "stress" }
+contact = { method = "potential", friction = 0.0 }
+run = { t_end = 1e-2 }
+[[material]]
+density = 2500.0
+constants = { E = 30e9, nu = 0.0 }
+strength = { tensile = 1e9, cohesion = 5e9, friction = 0.6, residual_friction = 0.6, G_I = 1e6, G_II = 3e6 }
+[[interface]]
+on = "seam"
+strength = { tensile = 3e6, cohesion = 15e6, friction = 0.6, residual_friction = 0.6, G_I = 10.0, G_II = 30.0 }
+)";
+
+/// The state that follows when the upper block stands at an angle, and what cracks make of it.
+State opened_by(const Case& built, const State& before, double angle) {
+    const Mesh& mesh = *built.mesh;
+    State state = before;
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
+        const std::span nodes(mesh.element(e), static_cast<std::size_t>(mesh.nodes_per_element()));
+        if (std::ranges::none_of(nodes, [&](std::int32_t k) { return mesh.nodes[static_cast<std::size_t>(k)][1] > 0; }))
+            continue;  // of the lower block
+        for (const std::int32_t k : nodes) {
+            const auto node = static_cast<std::size_t>(k);
+            const auto [x, y] = mesh.nodes[node];
+            state.u[2 * node] = x * (std::cos(angle) - 1) - y * std::sin(angle);
+            state.u[2 * node + 1] = x * std::sin(angle) + y * (std::cos(angle) - 1);
+        }
+    }
+    std::vector<double> f(state.u.size());
+    built.system->force_and_update(before, Trial::of(state), f, state.z, state.history);
+    built.cracking->look(state);
+    return state;
+}
+
+TEST(Book, OpenedPastAHalfTurnAboutASideThatHoldsItsHinge_TouchesThereFirst_FromZero) {
+    for (const std::string element : {"cst", "compt"})
+        for (const std::string method : {"intrinsic", "y_code"}) {
+            SCOPED_TRACE(element + " " + method);
+            const Case built = build_case(
+                parse_deck(book, "book", {"fracture.method=\"" + method + "\"", "solid.element=\"" + element + "\""}));
+            const double degree = std::numbers::pi / 180;
+            State state = built.system->initial_state();
+            for (int angle = 1; angle < 180; ++angle) {
+                state = opened_by(built, state, angle * degree);
+                // the hinge touches, to round-off of positions: 1e-17 m
+                ASSERT_LT(built.system->stored_energies(state).contact, 1e-15) << angle << " degrees";
+            }
+            // the left faces meet at 180 degrees; then they overlap in proportion to the angle
+            const double one = built.system->stored_energies(opened_by(built, state, 181 * degree)).contact,
+                         two = built.system->stored_energies(opened_by(built, state, 182 * degree)).contact;
+            EXPECT_GT(one, 10);                   // J; at 3.3 degrees the deck stores 1e3 J here and in the blocks
+            EXPECT_NEAR(two / one, 4, 4 * 0.01);  // sines, and the ends of faces that leave their first triangle
+        }
 }
 
 }  // namespace

@@ -312,5 +312,44 @@ TEST_P(Bonded, SideThatStandsAlone_ComesApartWithItsNeighbour) {
     EXPECT_EQ(bodies.come_apart(two), two);
 }
 
+TEST(ContactBodies, SideThatFailsWhereItsFacesHaveANodeInCommon_StaysBondedThere) {
+    // two cells of composites; the side between them comes apart at its lower end last
+    Mesh mesh = test::rectangle(true, 2, 1, {2, 1});
+    const Mesh whole = mesh;
+    InnerSides sides(mesh);
+    std::int32_t middle = -1;
+    std::vector<SideNode> upper, lower;
+    for (std::int32_t s = 0; s < static_cast<std::int32_t>(sides.sides().size()); ++s) {
+        const ElementSide& left = sides.sides()[static_cast<std::size_t>(s)].left;
+        const auto local = side_nodes(whole.kind, left.side);
+        const auto at = [&](std::size_t place) {
+            return whole
+                .nodes[static_cast<std::size_t>(whole.element(static_cast<std::size_t>(left.element))[local[place]])];
+        };
+        if (at(0)[0] != 1 || at(2)[0] != 1) continue;
+        middle = s;
+        for (std::size_t place = 0; place < local.size(); ++place)
+            (at(place)[1] > 0 ? upper : lower).push_back({s, static_cast<std::int32_t>(place)});
+    }
+    ASSERT_EQ(upper.size(), 2u);
+    ASSERT_EQ(lower.size(), 1u);
+    Contact contact({mesh}, layers_of(mesh), cap, rough());
+    std::vector<double> history(contact.n_history());
+    contact.initial_history(history);
+    const std::size_t n_edges = contact.bodies().points().of_edge.size();
+    const auto follow = [&](const std::vector<SideNode>& ends, std::span<const std::int32_t> failed) {
+        const std::vector<NodeCopy> copies = sides.open(ends);
+        EXPECT_EQ(copies.size(), ends.size());
+        PathEnergies energies;
+        contact.follow({mesh, copies, {}, {}, failed}, displaced(mesh.n_nodes(), 0, 1), history, energies);
+        EXPECT_EQ(contact.bodies().n_nodes(), mesh.n_nodes());
+        for (std::size_t node = 0; node < mesh.n_nodes(); ++node)
+            EXPECT_EQ(contact.bodies().held(static_cast<std::int32_t>(node)).size(), 1u);
+        EXPECT_EQ(contact.bodies().points().of_edge.size(), n_edges + 4) << "two sub-edges of each face";
+    };
+    follow(upper, std::span(&middle, 1));
+    follow(lower, {});
+}
+
 }  // namespace
 }  // namespace gneiss
