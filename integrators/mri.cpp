@@ -80,6 +80,10 @@ void Mri::create(double t) {
     check(ARKStepSetUserData(fast, this), "ARKStepSetUserData");
     check(ARKStepWFtolerances(fast, weights), "ARKStepWFtolerances");
     check(ARKStepSetTableNum(fast, ARKODE_DIRK_NONE, fast_table), "ARKStepSetTableNum");
+    const auto follow = [](realtype at, N_Vector y, void* self) {
+        return static_cast<Mri*>(self)->follow_interactions(at, y);
+    };
+    check(ARKStepSetPostprocessStepFn(fast, follow), "ARKStepSetPostprocessStepFn");
     constexpr long no_limit = -1;  // between two stages of the slow part
     check(ARKStepSetMaxNumSteps(fast, no_limit), "ARKStepSetMaxNumSteps");
     MRIStepInnerStepper stepper = nullptr;
@@ -106,6 +110,7 @@ void Mri::restart(double t) {
 }
 
 int Mri::step(double dt, double t_stop, double& t) {
+    begin_path();
     check(MRIStepSetFixedStep(slow_.get(), dt), "MRIStepSetFixedStep");
     check(MRIStepSetStopTime(slow_.get(), t_stop), "MRIStepSetStopTime");
     return MRIStepEvolve(slow_.get(), t_stop, y(), &t, ARK_ONE_STEP);

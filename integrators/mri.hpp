@@ -7,7 +7,8 @@
 //
 // Between the stages of the slow method the fast part is integrated by an explicit Runge-Kutta method, with steps from
 // its error estimate, under a polynomial in time that stands for the slow part. The stability of the slow part bounds
-// the step; nothing looks after that. History moves on once in a long step.
+// the step; nothing looks after that. What contact and joints remember moves on in every short step, what materials
+// remember once in a long one.
 
 #include <span>
 #include <string>

@@ -41,7 +41,8 @@ void SundialsOde::allocate(const SemiDiscrete& system) {
     y_ = new_vector(form_.size(), context_);
     middle_y_ = new_vector(form_.size(), context_);
     const Layout layout = system.layout();
-    for (State* scratch : {&next_, &middle_}) {
+    path_.reset();
+    for (State* scratch : {&next_, &middle_, &on_path_}) {
         scratch->u.assign(layout.n_dof, 0.0);
         scratch->v.assign(layout.n_dof, 0.0);
         scratch->z.assign(layout.n_internal, 0.0);
@@ -128,7 +129,7 @@ void SundialsOde::finish_step(const SemiDiscrete& system, const State& state) {
     if (next_.history.empty()) {
         take_reactions(system, next_, after_);
     } else {
-        update_history(system, state, next_, after_);
+        update_history(system, path_ ? *path_ : state, next_, after_);
         ++counts_.rates;  // what is remembered is the scheme's own
     }
     add_path_energies(system, state, before_, next_, after_);
@@ -274,7 +275,22 @@ int SundialsOde::rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector 
     return guard_([&] {
         if (form_.repeat(*accepted_, t, values_of(y), part, values_of(dydt))) return;
         count(t, values_of(y), part);
-        form_.rate(*system_, *accepted_, t, values_of(y), part, values_of(dydt), !in_dense_output_);
+        const State& from = path_ && part == FirstOrderForm::Part::interactions ? *path_ : *accepted_;
+        form_.rate(*system_, from, t, values_of(y), part, values_of(dydt), !in_dense_output_);
+    });
+}
+
+void SundialsOde::begin_path() {
+    if (!accepted_->history.empty()) path_ = *accepted_;
+}
+
+int SundialsOde::follow_interactions(double t, N_Vector y) {
+    return guard_([&] {
+        if (!path_) return;
+        form_.unpack(*system_, t, values_of(y), on_path_);
+        system_->interaction_force(*path_, FirstOrderForm::trial_of(on_path_, path_->last_event), f_, on_path_.history);
+        ++counts_.interaction_rates;
+        std::swap(path_->history, on_path_.history);
     });
 }
 

@@ -6,6 +6,7 @@
 // method. It does the same at checkpoints, so that a run that is resumed agrees with one that is not, bit by bit.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,11 @@ protected:
     void check(int flag, const char* call);
     /// F(t, y) and its parts, for callbacks: SUNDIALS' return values.
     int rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector dydt);
+    /// From here to the end of the step interactions remember what follow_interactions() has seen: their rates are
+    /// those of a path.
+    void begin_path();
+    /// y at a later time on the path; SUNDIALS' return values.
+    int follow_interactions(double t, N_Vector y);
     /// Linearises at y unless what there is may serve (`reuse`), for systems of this gamma.
     int linear_system(double t, N_Vector y, bool reuse, double gamma, double right_scale);
     OwnedNonlinearSolver new_newton_iteration();
@@ -140,6 +146,9 @@ private:
     const SemiDiscrete* system_ = nullptr;  ///< while a call is under way
     const State* accepted_ = nullptr;
     State next_, middle_;
+    /// The accepted state with what interactions remember of the path since; empty where nothing is followed.
+    std::optional<State> path_;
+    State on_path_;
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     std::vector<double> f_, z_;
     Reactions before_, middle_reactions_, after_;  ///< where the last step began, in its middle, where it ended

@@ -213,12 +213,13 @@ Case build_case(CaseOptions options) {
     std::vector<JointEdge> edges;
     if (cracks || !options.cracks.empty()) {
         built.inner = std::make_unique<InnerSides>(*built.mesh);
-        named = named_sides(*built.mesh, *built.inner, options.cracks, options.interfaces);
+        named = named_sides(*built.mesh, *built.inner, options.cracks, options.interfaces, options.fracture.on);
         open_cracks(*built.mesh, *built.inner, named.cracked);
-        if (cracks && !extrinsic) open_all_sides(*built.inner);
-        // sides that open under way look up their properties by their numbers, those of cracks included
-        if (cracks)
-            edges = all_edges(*built.mesh, *built.inner, extrinsic ? std::vector<std::int32_t>{} : named.cracked);
+        if (cracks && !extrinsic) open_all_sides(*built.inner, named.bonded);
+        // sides that open under way look up their properties by their numbers, those of all sides included
+        std::vector<std::int32_t> without_joint;
+        if (!extrinsic) std::ranges::set_union(named.cracked, named.bonded, std::back_inserter(without_joint));
+        if (cracks) edges = all_edges(*built.mesh, *built.inner, without_joint);
     }
 
     std::vector<Problem> problems;

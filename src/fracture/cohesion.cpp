@@ -57,19 +57,32 @@ StrengthOf strength_of_edge(const JointEdge& edge, std::array<std::size_t, 2> ma
     return of;
 }
 
-}  // namespace
-
-std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> cracked) {
-    std::vector<std::int32_t> all(inner.sides().size()), whole;
+/// Numbers of inner sides, ascending.
+std::vector<std::int32_t> all_but(const InnerSides& inner, std::span<const std::int32_t> left_out) {
+    std::vector<std::int32_t> all(inner.sides().size()), rest;
     std::iota(all.begin(), all.end(), 0);
-    std::ranges::set_difference(all, cracked, std::back_inserter(whole));
-    return joint_edges(mesh, inner, whole);
+    std::ranges::set_difference(all, left_out, std::back_inserter(rest));
+    return rest;
 }
 
-void open_all_sides(InnerSides& inner) {
-    std::vector<std::int32_t> all(inner.sides().size());
-    std::iota(all.begin(), all.end(), 0);
-    inner.open(all);
+bool may_crack(const NamedSides& named, const JointEdge& edge) {
+    return !std::ranges::binary_search(named.bonded, edge.side);
+}
+
+/// Of an edge that stays bonded whatever happens; no joint ever has them.
+CohesionProperties<double> unbreakable() {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return {infinite, infinite, 0, 0, infinite, infinite, 1};
+}
+
+}  // namespace
+
+std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> left_out) {
+    return joint_edges(mesh, inner, all_but(inner, left_out));
+}
+
+void open_all_sides(InnerSides& inner, std::span<const std::int32_t> bonded) {
+    inner.open(all_but(inner, bonded));
     inner.renumber();
 }
 
@@ -89,6 +102,7 @@ std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::s
     };
     std::set<std::string> without;
     for (const JointEdge& edge : edges) {
+        if (!may_crack(named, edge)) continue;
         const StrengthOf of = strength_of_edge(edge, materials_of(edge), materials, interfaces, named);
         for (std::size_t k = 0; k < 2; ++k)
             if (of.sides[k] == nullptr && without.insert(of.places[k]).second)
@@ -108,6 +122,10 @@ std::vector<CohesionProperties<double>> edge_properties(const Mesh& mesh, std::s
     std::size_t n_coarse = 0;
     double shortest = std::numeric_limits<double>::infinity(), its_edge = 0;
     for (const JointEdge& edge : edges) {
+        if (!may_crack(named, edge)) {
+            all.push_back(unbreakable());
+            continue;
+        }
         const auto& start = mesh.nodes[static_cast<std::size_t>(edge.nodes[0])];
         const auto& end = mesh.nodes[static_cast<std::size_t>(edge.nodes[1])];
         const Vec2<double> along{end[0] - start[0], end[1] - start[1]};
@@ -184,12 +202,15 @@ void watch_strength(const Mesh& mesh, std::span<const JointEdge> edges,
         void take(const CohesionProperties<double>& p) { take(p.tensile_strength, p.cohesion, p.tan_phi_initial); }
     };
     std::map<std::int32_t, Least> of_element;
+    const auto is_breakable = [&](std::size_t i) { return std::isfinite(properties[i].tensile_strength); };
     for (std::size_t i = 0; i < edges.size(); ++i)
-        for (const std::int32_t e : {edges[i].left, edges[i].right}) of_element[e].take(properties[i]);
+        if (is_breakable(i))
+            for (const std::int32_t e : {edges[i].left, edges[i].right}) of_element[e].take(properties[i]);
     if (reach.around_nodes) {
         std::vector<Least> of_node(mesh.n_nodes());
         for (std::size_t i = 0; i < edges.size(); ++i)
-            for (const std::int32_t node : edges[i].nodes) of_node[static_cast<std::size_t>(node)].take(properties[i]);
+            for (const std::int32_t node : edges[i].nodes)
+                if (is_breakable(i)) of_node[static_cast<std::size_t>(node)].take(properties[i]);
         const auto n = static_cast<std::size_t>(mesh.nodes_per_element());
         for (std::size_t e = 0; e < mesh.n_elements(); ++e)
             for (const std::int32_t node : std::span(mesh.element(e), n))

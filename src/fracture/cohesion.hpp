@@ -14,16 +14,19 @@
 
 namespace gneiss {
 
-/// Opens every inner side and numbers nodes anew: elements have nodes of their own.
-void open_all_sides(InnerSides& inner);
+/// Opens every inner side but some and numbers nodes anew: elements have nodes of their own.
+/// @param bonded  numbers of those left out, ascending
+void open_all_sides(InnerSides& inner, std::span<const std::int32_t> bonded = {});
 
 /// Sub-edges of every inner side but some, opened or not.
-/// @param cracked  numbers of those left out, ascending
-std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner, std::span<const std::int32_t> cracked = {});
+/// @param left_out  their numbers, ascending
+std::vector<JointEdge> all_edges(const Mesh& mesh, const InnerSides& inner,
+                                 std::span<const std::int32_t> left_out = {});
 
-/// What holds these edges together: the strengths of their interface or else of their materials. Where two materials
-/// meet, or axes differ, each property is the smaller one of the two sides. The scatter of an edge depends on the
-/// number of its inner side alone, for both sub-edges of a composite's side.
+/// What holds these edges together: the strengths of their interface or else of their materials; those of sides that
+/// may not crack are infinite. Where two materials meet, or axes differ, each property is the smaller one of the two
+/// sides. The scatter of an edge depends on the number of its inner side alone, for both sub-edges of a composite's
+/// side.
 /// @param blocks         of the mesh
 /// @param interfaces     with which sides belong to them
 /// @param[out] warnings  edges longer than the length over which cracks soften

@@ -1,21 +1,19 @@
 #include "fracture/named_sides.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
 #include "base/errors.hpp"
+#include "base/suggest.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/regions.hpp"
 #include "model/mesh_names.hpp"
 
 namespace gneiss {
 namespace {
-
-std::int32_t region_number(const Mesh& mesh, const std::string& name) {
-    elements_named(mesh, name);  // throws if there is none
-    return static_cast<std::int32_t>(std::ranges::find(mesh.region_names, name) - mesh.region_names.begin());
-}
 
 std::vector<std::int32_t> sides_of_line(const Mesh& mesh, const InnerSides& inner, const std::string& name) {
     std::vector<std::int32_t> sides;
@@ -23,21 +21,75 @@ std::vector<std::int32_t> sides_of_line(const Mesh& mesh, const InnerSides& inne
     return sides;
 }
 
-std::vector<std::int32_t> sides_between(const Mesh& mesh, const InnerSides& inner, const std::string& one,
-                                        const std::string& other) {
-    const std::int32_t a = region_number(mesh, one), b = region_number(mesh, other);
+bool is_in(const Mesh& mesh, std::int32_t element, const std::vector<bool>& regions) {
+    return regions[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(element)])];
+}
+
+/// Sides where two of these regions meet: each element is in one of them in which the other is not. What lies in both
+/// of two groups that overlap is on neither side of a boundary between them.
+std::vector<std::int32_t> sides_between(const Mesh& mesh, const InnerSides& inner,
+                                        const std::vector<std::string>& names) {
+    std::vector<std::set<std::size_t>> names_of(mesh.region_names.size());  // of each region, by their places
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        elements_named(mesh, names[i]);  // throws if there are none
+        for (const std::int32_t region : regions_named(mesh, names[i]))
+            names_of[static_cast<std::size_t>(region)].insert(i);
+    }
+    const auto of = [&](const ElementSide& side) -> const std::set<std::size_t>& {
+        return names_of[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(side.element)])];
+    };
     std::vector<std::int32_t> sides;
     for (std::size_t s = 0; s < inner.sides().size(); ++s) {
-        const auto& [left, right] = inner.sides()[s];
-        const std::int32_t of_left = mesh.region[static_cast<std::size_t>(left.element)],
-                           of_right = mesh.region[static_cast<std::size_t>(right.element)];
-        if ((of_left == a && of_right == b) || (of_left == b && of_right == a))
+        const std::set<std::size_t>&left = of(inner.sides()[s].left), &right = of(inner.sides()[s].right);
+        if (!std::ranges::includes(left, right) && !std::ranges::includes(right, left))
             sides.push_back(static_cast<std::int32_t>(s));
     }
-    if (sides.empty())
-        throw InputError("",
-                         fmt::format("between = [\"{}\", \"{}\"]: these regions have no side in common", one, other));
     return sides;
+}
+
+std::vector<std::int32_t> sides_of_interface(const Mesh& mesh, const InnerSides& inner,
+                                             const InterfaceOptions& interface) {
+    if (!interface.on.empty()) return sides_of_line(mesh, inner, interface.on);
+    const std::vector<std::string> names = interface.between_any ? names_of_regions(mesh) : interface.between;
+    std::vector<std::int32_t> sides = sides_between(mesh, inner, names);
+    if (sides.empty())
+        throw InputError("", interface.between_any
+                                 ? std::string("between = \"any\": no two regions of the mesh have a side in common")
+                                 : fmt::format("between = [\"{}\"]: these regions have no side in common",
+                                               fmt::join(names, "\", \"")));
+    return sides;
+}
+
+/// Sides that may not crack: neither within the regions, nor on the lines, nor of an interface, nor open already.
+std::vector<std::int32_t> bonded_sides(const Mesh& mesh, const InnerSides& inner, const std::vector<std::string>& on,
+                                       const NamedSides& named, std::vector<Problem>& problems) {
+    std::vector<bool> may_crack(inner.sides().size(), false), regions(mesh.region_names.size(), false);
+    for (const std::string& name : on) {
+        const std::vector<std::int32_t> numbers = regions_named(mesh, name);
+        for (const std::int32_t region : numbers) regions[static_cast<std::size_t>(region)] = true;
+        const bool is_line = mesh.inner_lines.contains(name);
+        if (is_line)
+            for (const std::int32_t side : sides_of_line(mesh, inner, name))
+                may_crack[static_cast<std::size_t>(side)] = true;
+        if (!numbers.empty() || is_line) continue;
+        std::vector<std::string> known = names_of_regions(mesh);
+        for (const auto& [line, unused] : mesh.inner_lines) known.push_back(line);
+        problems.push_back({"[fracture] on",
+                            fmt::format("the mesh has no region and no line inside the solid of the name "
+                                        "\"{}\"; there are: {}{}",
+                                        name, fmt::join(known, ", "), suggestion(name, {known.begin(), known.end()}))});
+    }
+    for (const auto& [side, unused] : named.interface_of) may_crack[static_cast<std::size_t>(side)] = true;
+    std::vector<std::int32_t> bonded;
+    for (std::size_t s = 0; s < inner.sides().size(); ++s) {
+        const auto& [left, right] = inner.sides()[s];
+        if (may_crack[s] || (is_in(mesh, left.element, regions) && is_in(mesh, right.element, regions))) continue;
+        const auto number = static_cast<std::int32_t>(s);
+        if (!std::ranges::binary_search(named.cracked, number)) bonded.push_back(number);
+    }
+    if (problems.empty() && bonded.size() + named.cracked.size() == inner.sides().size())
+        problems.push_back({"[fracture] on", "no side may crack: it names none, and there is no [[interface]]"});
+    return bonded;
 }
 
 /// Gives sides to entries of the deck, each to one.
@@ -83,14 +135,15 @@ private:
 }  // namespace
 
 NamedSides named_sides(const Mesh& mesh, const InnerSides& inner, const std::vector<CrackOptions>& cracks,
-                       const std::vector<InterfaceOptions>& interfaces) {
+                       const std::vector<InterfaceOptions>& interfaces,
+                       const std::optional<std::vector<std::string>>& where) {
     NamedSides named;
     Claims claims(mesh, inner);
     std::vector<Problem> problems;
-    const auto entry = [&](const std::string& place, const std::string& on, auto&& sides_of) {
+    const auto entry = [&](const std::string& place, const std::string& line, auto&& sides_of) {
         try {
             const std::vector<std::int32_t> sides = sides_of();
-            claims.claim(on.empty() ? place : fmt::format("{} on = \"{}\"", place, on), sides);
+            claims.claim(line.empty() ? place : fmt::format("{} on = \"{}\"", place, line), sides);
             return sides;
         } catch (const InputError& error) {
             for (const Problem& problem : error.problems()) problems.push_back({place, problem.message});
@@ -105,12 +158,11 @@ NamedSides named_sides(const Mesh& mesh, const InnerSides& inner, const std::vec
     std::ranges::sort(named.cracked);
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
         const InterfaceOptions& interface = interfaces[i];
-        const auto sides = entry(fmt::format("[[interface]] {}", i + 1), interface.on, [&] {
-            return interface.on.empty() ? sides_between(mesh, inner, interface.between.at(0), interface.between.at(1))
-                                        : sides_of_line(mesh, inner, interface.on);
-        });
+        const auto sides = entry(fmt::format("[[interface]] {}", i + 1), interface.on,
+                                 [&] { return sides_of_interface(mesh, inner, interface); });
         for (const std::int32_t side : sides) named.interface_of.emplace(side, i);
     }
+    if (where) named.bonded = bonded_sides(mesh, inner, *where, named, problems);
     if (!problems.empty()) throw InputError(std::move(problems));
     return named;
 }

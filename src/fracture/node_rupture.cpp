@@ -221,8 +221,9 @@ void find_rupture(std::span<const FanCorner> corners, std::span<const FanInterfa
         double half = 0;
         for (std::size_t j = 0; j < n; ++j) {
             const auto& p = *interfaces[j].properties;
-            half =
-                std::max({half, length(c + base[j]), interfaces[j].weight * std::max(p.tensile_strength, p.cohesion)});
+            half = std::max(half, length(c + base[j]));
+            if (std::isfinite(p.tensile_strength))  // else it may not open, and bounds nothing
+                half = std::max(half, interfaces[j].weight * std::max(p.tensile_strength, p.cohesion));
         }
         c = minimise(fan, c, 2 * half);
         if (fan.largest(c).value >= 1) found.opening = mechanism(fan, c, n);

@@ -70,6 +70,32 @@ void straighten_sides(MeshDraft& draft) {
             draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
 }
 
+std::vector<std::int64_t> straighten_folded(MeshDraft& draft) {
+    const auto is_folded = [&](const std::array<std::int32_t, 6>& element) {
+        return std::ranges::any_of(composite_sub_triangles, [&](const SubTriangle& abc) {
+            const auto [i, j, k] = counter_clockwise(abc);
+            return triangle_area(draft.nodes[element[i]], draft.nodes[element[j]], draft.nodes[element[k]]) < 0;
+        });
+    };
+    const auto corners_run_well = [&](const std::array<std::int32_t, 6>& element) {
+        return triangle_area(draft.nodes[element[0]], draft.nodes[element[2]], draft.nodes[element[4]]) > 0;
+    };
+    std::vector<std::int64_t> labels;
+    // a neighbour may fold over the side that has moved: again, until none does, at the latest where all are straight
+    for (bool again = true; again;) {
+        again = false;
+        for (std::size_t e = 0; e < draft.elements.size(); ++e) {
+            const auto& element = draft.elements[e];
+            if (!corners_run_well(element) || !is_folded(element)) continue;
+            for (const auto& [from, mid, to] : composite_sides)
+                draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
+            again = !is_folded(element);
+            labels.push_back(draft.element_labels[e]);
+        }
+    }
+    return labels;
+}
+
 void orient(MeshDraft& draft) {
     for (auto& element : draft.elements)
         if (triangle_area(draft.nodes[element[0]], draft.nodes[element[2]], draft.nodes[element[4]]) < 0)

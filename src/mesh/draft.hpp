@@ -45,6 +45,11 @@ void add_mid_sides(MeshDraft& draft);
 /// Moves every mid-side node halfway between its corners.
 void straighten_sides(MeshDraft& draft);
 
+/// Moves mid-side nodes halfway between their corners in elements that they turn inside out in part: curved sides of a
+/// coarse mesh, or of a boundary layer.
+/// @return labels of these elements
+std::vector<std::int64_t> straighten_folded(MeshDraft& draft);
+
 /// Turns every element that runs clockwise: in a file each surface has the sense in which it was drawn.
 void orient(MeshDraft& draft);
 

@@ -148,6 +148,10 @@ Mesh make_mesh(const MeshOptions& options, bool compt, const std::filesystem::pa
 Mesh finish(MeshDraft draft, bool compt, MeshReport& report) {
     report.warnings.insert(report.warnings.end(), draft.warnings.begin(), draft.warnings.end());
     orient(draft);
+    if (std::vector<std::int64_t> folded = straighten_folded(draft); !folded.empty())
+        report.warnings.push_back(
+            fmt::format("sides made straight, since their mid-side nodes turned a sub-triangle inside out: {}",
+                        numbered("element", folded)));
     if (std::vector<Problem> problems = check(draft, report.warnings); !problems.empty())
         throw InputError(std::move(problems));
     renumber(draft);

@@ -250,8 +250,8 @@ void ElementForces::force(const State& accepted, const Trial& trial, std::span<d
 }
 
 void ElementForces::add_company_force(const State& accepted, const Trial& trial, std::span<double> f,
-                                      const Interactions& interactions) const {
-    for_each_chunk([&](std::size_t c, const Chunk&) { interactions.add_chunk_force(c, accepted, trial, f, {}); });
+                                      std::span<double> history, const Interactions& interactions) const {
+    for_each_chunk([&](std::size_t c, const Chunk&) { interactions.add_chunk_force(c, accepted, trial, f, history); });
 }
 
 void ElementForces::prepare_scratch() const {

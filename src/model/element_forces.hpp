@@ -75,7 +75,8 @@ public:
     void force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> z = {},
                std::span<double> history = {}, const Company& company = {nullptr, nullptr}) const;
     /// What interactions add inside chunks, without the elements.
-    void add_company_force(const State& accepted, const Trial& trial, std::span<double> f,
+    /// @param[out] history  their part overwritten if not empty
+    void add_company_force(const State& accepted, const Trial& trial, std::span<double> f, std::span<double> history,
                            const Interactions& interactions) const;
     void internal_weights(std::span<double> weights) const;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const;

@@ -102,6 +102,9 @@ struct FractureOptions {
     double penalty = 20;   ///< stiffness of joints: this times the P-wave modulus over the edge's length, > 0
     double weibull_modulus = 0;  ///< scatter of strengths from edge to edge, > 0; 0: none
     int seed = 0;                ///< of the scatter, >= 0
+    /// Names of regions and of lines inside the solid: sides within these regions, on these lines and of interfaces may
+    /// crack, all others stay bonded and need no strength. Not given: all sides may.
+    std::optional<std::vector<std::string>> on = {};
 };
 
 /// A line of sides that is open from the start.
@@ -112,7 +115,8 @@ struct CrackOptions {
 /// Sides with strengths of their own.
 struct InterfaceOptions {
     std::string on;                    ///< name of a line inside the solid; or
-    std::vector<std::string> between;  ///< two regions: the sides where they meet
+    std::vector<std::string> between;  ///< two regions or more: the sides where any two of them meet
+    bool between_any = false;          ///< the same of all regions
     StrengthOptions strength;          ///< in place of the materials'; directions are those of their axes
 };
 

@@ -180,10 +180,12 @@ void SolidSystem::external_force(const Trial& trial, std::span<double> f) const 
     for (const auto& term : terms_) term->add_force(trial, f);
 }
 
-void SolidSystem::interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+void SolidSystem::interaction_force(const State& accepted, const Trial& trial, std::span<double> f,
+                                    std::span<double> history) const {
     std::ranges::fill(f, 0.0);
-    elements_.add_company_force(accepted, trial, f, interactions_);
-    interactions_.add_force(accepted, trial, f, {});
+    if (!history.empty()) std::ranges::copy(accepted.history, history.begin());
+    elements_.add_company_force(accepted, trial, f, history, interactions_);
+    interactions_.add_force(accepted, trial, f, history);
 }
 
 void SolidSystem::internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const {

@@ -46,7 +46,9 @@ public:
     void force_on_arrival(const State& accepted, const Trial& trial, const Arrival& arrival, std::span<double> f,
                           std::span<double> z, std::span<double> history) const override;
     void external_force(const Trial& trial, std::span<double> f) const override;
-    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const override;
+    using SemiDiscrete::interaction_force;
+    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f,
+                           std::span<double> history) const override;
     void internal_rate(const State& accepted, const Trial& trial, std::span<double> rate) const override;
     void internal_weights(std::span<double> weights) const override;
     double smallest_length() const override { return smallest_edge_; }

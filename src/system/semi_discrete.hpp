@@ -2,6 +2,7 @@
 // M a + C v = f(t, u, v, z),  z' = g(t, u, v, z)   [FORMULATION 1; Lei et al. 2016, (1)]:
 // everything a time integrator, a static solver or a cross-check may know of a solid.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -124,11 +125,17 @@ public:
 
     /// The part of f that parts of the solid exert on each other, joints and contact: stiff, of few nodes, and cheap
     /// beside the rest. Multirate schemes take it in shorter steps.
-    /// @param[out] f  overwritten, N, shape (n_dof)
-    virtual void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
-        (void)accepted;
+    /// @param[out] f        overwritten, N, shape (n_dof)
+    /// @param[out] history  if not empty, overwritten by what interactions alone would remember of the trial if it were
+    ///                      accepted, and by the accepted history for the rest; shape (n_history), not the accepted one
+    virtual void interaction_force(const State& accepted, const Trial& trial, std::span<double> f,
+                                   std::span<double> history) const {
         (void)trial;
-        for (double& value : f) value = 0;
+        std::ranges::fill(f, 0.0);
+        if (!history.empty()) std::ranges::copy(accepted.history, history.begin());
+    }
+    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const {
+        interaction_force(accepted, trial, f, {});
     }
 
     /// z' = g(t, u, v, z) at the trial's own z. Linear in v but for a part that does not depend on it, as f is in z.

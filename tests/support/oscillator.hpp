@@ -128,7 +128,8 @@ public:
         const Vector load = model_.load(trial.t, trial.last_event >= model_.switch_time);
         std::copy(load.data(), load.data() + load.size(), f.begin());
     }
-    void interaction_force(const State&, const Trial& trial, std::span<double> f) const override {
+    using SemiDiscrete::interaction_force;
+    void interaction_force(const State&, const Trial& trial, std::span<double> f, std::span<double>) const override {
         const Vector force = model_.interactions.size() > 0 ? Vector(-model_.interactions * vector(trial.u))
                                                             : Vector(-0.5 * model_.stiffness * vector(trial.u));
         std::copy(force.data(), force.data() + force.size(), f.begin());

@@ -1,5 +1,7 @@
 // [fracture], [[crack]], [[interface]], and strengths.
 
+#include <algorithm>
+
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
 
@@ -27,13 +29,35 @@ void check_fracture(TableReader& table, FractureOptions& fracture) {
 }
 
 bool read_regions_between(const Value& value, TableReader&, InterfaceOptions& out) {
-    const auto values = value.elements(2, "names of regions");
+    if (const auto* word = value.node().as_string(); word != nullptr && word->get() == "any") {
+        out.between_any = true;
+        return true;
+    }
+    const auto values = value.elements(std::nullopt, "two names of regions or more, or \"any\"");
     bool good = values.has_value();
     for (std::size_t i = 0; values && i < values->size(); ++i)
         good = (*values)[i].read(out.between.emplace_back()) && good;
-    if (!good || out.between[0] != out.between[1]) return good;
-    value.problem(fmt::format("given \"{}\" twice, must be two regions", out.between[0]));
-    return false;
+    if (!good) return false;
+    if (out.between.size() < 2) {
+        value.problem("given a single region, must be two or more");
+        return false;
+    }
+    for (std::size_t i = 1; i < out.between.size(); ++i)
+        if (std::find(out.between.begin(), out.between.begin() + static_cast<std::ptrdiff_t>(i), out.between[i]) !=
+            out.between.begin() + static_cast<std::ptrdiff_t>(i)) {
+            value.problem(fmt::format("given \"{}\" twice, must be different regions", out.between[i]));
+            return false;
+        }
+    return true;
+}
+
+/// Names, each once or more.
+bool read_where_to_crack(const Value& value, TableReader&, FractureOptions& out) {
+    const auto values = value.elements(std::nullopt, "names of regions and of lines inside the solid");
+    bool good = values.has_value();
+    if (values) out.on.emplace();
+    for (std::size_t i = 0; values && i < values->size(); ++i) good = (*values)[i].read(out.on->emplace_back()) && good;
+    return good;
 }
 
 void check_interface(TableReader& table, InterfaceOptions&) {
@@ -69,8 +93,11 @@ const Section<InterfaceOptions>& interface_section() {
              "on", "a string", "",
              {.required = true, .or_else = "between", .meaning = "name of a line inside the solid; or give `between`"},
              [](const Value& value, TableReader&, I& out) { return value.read(out.on); }),
-         custom<I>("between", "an array of 2 strings", "",
-                   {.meaning = "two regions: the sides where they meet; or give `on`"}, read_regions_between),
+         custom<I>(
+             "between", "an array of strings or \"any\"", "",
+             {.meaning = "two regions or more: the sides where any two of them meet; `\"any\"`: of all regions; or "
+                         "give `on`"},
+             read_regions_between),
          custom<I>(
              "strength", "a table", "",
              {.required = true, .meaning = "in place of the materials' on both sides; keys as in `material.strength`"},
@@ -114,6 +141,13 @@ const Section<FractureOptions>& fracture_section() {
                             "beyond is taken again, shorter; 0: 0.01, or, under central_difference, verlet and "
                             "noh_bathe, whose steps are short, what a step brings. `run.event_tolerance` goes before "
                             "it"}),
+         custom<F>(
+             "on", "an array of strings", "",
+             {.only_for = jointed,
+              .meaning = "names of regions and of lines inside the solid: sides within these regions, on these lines "
+                         "and of [[interface]] may crack, all others stay bonded and need no strength; `[]`: those of "
+                         "[[interface]] alone; not given: all sides may"},
+             read_where_to_crack),
          number("penalty", &F::penalty,
                 {.range = above(0),
                  .only_for = jointed,

@@ -257,5 +257,57 @@ TEST_F(ProgramFracture, CoarseEdges_AreWarnedOf) {
     EXPECT_THAT(ended.out, HasSubstr("longer than the length over which a crack softens"));
 }
 
+/// Cracks along a line in the middle alone, or between grains; the material has no strength.
+const std::string seam_deck = R"toml(title = "a block that comes apart along a seam"
+mesh = { generator = "rectangle", width = 0.04, height = 0.02, cells = [8, 4], lines = [{ name = "seam", from = [0.02, 0], to = [0.02, 0.02] }] }
+solid = { plane = "strain" }
+material = [{ density = 2500.0, constants = { E = 30e9, nu = 0.2 } }]
+fracture = { method = "intrinsic", on = [] }
+interface = [{ on = "seam", strength = { tensile = 4e6, cohesion = 1e7, friction = 0.6, residual_friction = 0.4, G_I = 20, G_II = 60 } }]
+boundary = [{ on = "left", type = "displacement", value = [0.0, 0.0] }, { on = "right", type = "displacement", value = [3e-5, 0.0], amplitude = "ramp" }]
+run = { t_end = 1e-3 }
+)toml";
+
+/// J, of a seam of 0.02 m that is pulled until nothing holds it: G_I times its length.
+constexpr double whole_seam = 20 * 0.02;
+
+TEST_F(ProgramFracture, CracksWhereTheDeckAllowsThemAlone_CostThoseSides) {
+    put("seam.toml", seam_deck);
+    for (const char* element : {"solid.element=cst", "solid.element=compt"})
+        for (const char* method :
+             {"fracture.method=intrinsic", "fracture.method=y_code", "fracture.method=extrinsic"}) {
+            const Ended ended = gneiss({"run", "seam.toml", "--quiet", "--out", "out", "--set", element, method,
+                                        "boundary.1.amplitude={ type = \"ramp\", end = 1e-3 }"});
+            ASSERT_EQ(ended.code, 0) << element << method << ended.err;
+            // waves that are left when the seam snaps, and ends of the extrinsic law that begin at their strength
+            constexpr double of_waves = 0.02;
+            EXPECT_NEAR(summary("out")["energies_J"]["dissipated_fracture"].get<double>() / whole_seam, 1, of_waves)
+                << element << method;
+            EXPECT_EQ(summary("out")["cracks"]["fragments"], 2) << element << method;
+        }
+}
+
+TEST_F(ProgramFracture, StaticSeam_HoldsUpToItsStrengthAndNothingElseSoftens) {
+    put("seam.toml", seam_deck);
+    // 0.02 m of joints at 1e-6 of strain: the displacement that gives half the strength
+    for (const char* element : {"solid.element=cst", "solid.element=compt"}) {
+        const Ended ended =
+            gneiss({"run", "seam.toml", "--quiet", "--out", "out", "--set", element, "integrator.type=quasi_static",
+                    "boundary.1.amplitude={ type = \"ramp\", end = 1e-3 }", "boundary.1.value=[2e-6, 0.0]"});
+        ASSERT_EQ(ended.code, 0) << element << ended.err;
+        EXPECT_EQ(summary("out")["energies_J"]["dissipated_fracture"].get<double>(), 0) << element;
+        EXPECT_EQ(summary("out")["cracks"]["fragments"], 1) << element;
+    }
+}
+
+TEST_F(ProgramFracture, WithoutAnythingThatMayCrack_IsRefused) {
+    put("seam.toml", seam_deck);
+    const Ended ended = gneiss({"check", "seam.toml", "--set", "interface=[]"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("[fracture] on: no side may crack: it names none, and there is no [[interface]]"));
+    EXPECT_THAT(gneiss({"check", "seam.toml", "--set", "fracture.on=['solid']"}).err,
+                HasSubstr("`strength` is missing, which [fracture] needs"));
+}
+
 }  // namespace
 }  // namespace gneiss

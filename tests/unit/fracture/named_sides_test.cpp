@@ -51,9 +51,10 @@ protected:
     InnerSides inner{mesh};
     std::size_t per_cell = GetParam() ? 1 : 2;  ///< sides
 
-    std::string error_of(const std::vector<CrackOptions>& cracks, const std::vector<InterfaceOptions>& interfaces) {
+    std::string error_of(const std::vector<CrackOptions>& cracks, const std::vector<InterfaceOptions>& interfaces,
+                         const std::optional<std::vector<std::string>>& where = {}) {
         try {
-            named_sides(mesh, inner, cracks, interfaces);
+            named_sides(mesh, inner, cracks, interfaces, where);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -74,6 +75,56 @@ TEST_P(NamedSidesOf, LinesAndRegions_AreFound) {
         EXPECT_NE(mesh.region[static_cast<std::size_t>(found.left.element)],
                   mesh.region[static_cast<std::size_t>(found.right.element)]);
     }
+}
+
+TEST_P(NamedSidesOf, SeveralRegionsOrAny_AreFoundWhereTwoOfThemMeet) {
+    // thirds, side by side: two boundaries of four cells each
+    for (std::size_t e = 0; e < mesh.n_elements(); ++e) {
+        double x = 0;
+        for (int k = 0; k < mesh.nodes_per_element(); ++k)
+            x += mesh.nodes[static_cast<std::size_t>(mesh.element(e)[k])][0] / mesh.nodes_per_element();
+        mesh.region[e] = x < 0.5 ? 0 : x < 1.5 ? 1 : 2;
+    }
+    InterfaceOptions all = between("left_half", "right_half"), any;
+    EXPECT_EQ(named_sides(mesh, inner, {}, {all}).interface_of.size(), 4 * per_cell);
+    all.between.emplace_back("nowhere");
+    EXPECT_EQ(named_sides(mesh, inner, {}, {all}).interface_of.size(), 8 * per_cell);
+    any.between_any = true;
+    EXPECT_EQ(named_sides(mesh, inner, {}, {any}).interface_of.size(), 8 * per_cell);
+    mesh.region_names = {"rock & a", "rock & b", "rock & b & c"};  // c is part of b: no boundary of b runs around it
+    EXPECT_EQ(named_sides(mesh, inner, {}, {any}).interface_of.size(), 4 * per_cell);
+    EXPECT_EQ(named_sides(mesh, inner, {}, {between("a", "b")}).interface_of.size(), 4 * per_cell);
+    EXPECT_THAT(error_of({}, {between("rock", "b")}), HasSubstr("these regions have no side in common"));
+    mesh.region_names = {"rock", "rock & b", "rock & b & c"};
+    EXPECT_THAT(error_of({}, {any}), HasSubstr("between = \"any\": no two regions of the mesh have a side in common"));
+}
+
+TEST_P(NamedSidesOf, WhereCracksMayBe_AllOtherSidesStayBonded) {
+    const std::size_t n = inner.sides().size();
+    EXPECT_TRUE(named_sides(mesh, inner, {}, {}).bonded.empty()) << "not given: all sides may crack";
+    const auto n_bonded = [&](const std::vector<CrackOptions>& cracks, const std::vector<InterfaceOptions>& interfaces,
+                              const std::vector<std::string>& where) {
+        return named_sides(mesh, inner, cracks, interfaces, where).bonded.size();
+    };
+    EXPECT_EQ(n_bonded({}, {}, {"across"}), n - 4 * per_cell);
+    EXPECT_EQ(n_bonded({}, {on("up")}, {}), n - 2 * per_cell) << "interfaces alone";
+    EXPECT_EQ(n_bonded({{"across"}}, {on("up")}, {}), n - 6 * per_cell) << "a crack is open already";
+    EXPECT_EQ(n_bonded({}, {}, {"left_half", "right_half"}), 0u);
+    EXPECT_EQ(n_bonded({}, {}, {"left_half"}) + n_bonded({}, {}, {"right_half"}), n + 4 * per_cell)
+        << "sides between both are in neither";
+    const NamedSides named = named_sides(mesh, inner, {}, {}, {{"left_half", "beyond"}});
+    EXPECT_TRUE(std::ranges::is_sorted(named.bonded));
+    for (const std::int32_t side : named.bonded) {
+        const InnerSide& found = inner.sides()[static_cast<std::size_t>(side)];
+        EXPECT_EQ(std::max(mesh.region[static_cast<std::size_t>(found.left.element)],
+                           mesh.region[static_cast<std::size_t>(found.right.element)]),
+                  1);
+    }
+    EXPECT_THAT(
+        error_of({}, {}, {{"acros"}}),
+        AllOf(HasSubstr("[fracture] on: the mesh has no region and no line inside the solid of the name \"acros\""),
+              HasSubstr("did you mean `across`?")));
+    EXPECT_THAT(error_of({}, {}, {{}}), HasSubstr("no side may crack"));
 }
 
 TEST_P(NamedSidesOf, SideClaimedTwice_NamesBoth) {

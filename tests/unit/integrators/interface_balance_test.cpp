@@ -47,7 +47,9 @@ public:
         history[0] = 0;
     }
     void external_force(const Trial&, std::span<double> f) const override { std::ranges::fill(f, 0.0); }
-    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f) const override {
+    using SemiDiscrete::interaction_force;
+    void interaction_force(const State& accepted, const Trial& trial, std::span<double> f,
+                           std::span<double>) const override {
         force(accepted, trial, f);
     }
     StoredEnergies stored_energies(const State& state) const override {

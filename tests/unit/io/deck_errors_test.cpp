@@ -103,7 +103,7 @@ TEST(DeckErrors, CracksAndInterfaces) {
         {{method, "interface=[{ on = \"a\", between = [\"a\", \"b\"], " + strength + " }]"},
          {"key `interface[0].between`: given together with `on`, an interface is found in one way"}},
         {{method, "interface=[{ between = [\"a\", \"a\"], " + strength + " }]"},
-         {"key `interface[0].between`: given \"a\" twice, must be two regions"}},
+         {"key `interface[0].between`: given \"a\" twice, must be different regions"}},
         {{"crack=[{}]"}, {"key `crack[0].on`: missing, must be a string"}},
         {{"mesh.lines=[{ name = \"a\", from = [0, 0] }]"},
          {"key `mesh.lines[0].to`: missing, must be an array of 2 numbers (m)"}},

@@ -40,6 +40,7 @@ method = "extrinsic"
 criterion = "larger"
 overshoot = 0.02
 penalty = 30
+on = ["rock", "fault"]
 weibull_modulus = 12
 seed = 3
 [contact]

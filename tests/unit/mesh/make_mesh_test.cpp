@@ -114,5 +114,24 @@ TEST(MakeMesh, AllElementsClockwise_AreTurned) {
     EXPECT_NEAR(total_area(mesh), 1, round_off);
 }
 
+TEST(MakeMesh, MidSideThatFoldsASubTriangle_IsMovedToAStraightSide) {
+    MeshDraft draft;
+    for (const auto& [x, y] : std::vector<Point2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}) draft.add_node(x, y);
+    draft.add_triangle(0, 1, 2);
+    draft.add_triangle(0, 3, 2);  // clockwise
+    draft.region_names = {"rock"};
+    add_mid_sides(draft);
+    draft.nodes[static_cast<std::size_t>(draft.elements[0][1])] = {0.5, 0.8};
+    draft.nodes[static_cast<std::size_t>(draft.elements[1][1])] = {-0.1, 0.5};  // curved and sound
+    MeshReport report;
+    const Mesh mesh = finish(std::move(draft), true, report);
+    EXPECT_GT(smallest_signed_area(mesh), 0);
+    EXPECT_THAT(report.warnings,
+                ElementsAre("sides made straight, since their mid-side nodes turned a sub-triangle inside "
+                            "out: element 1"));
+    EXPECT_THAT(mesh.nodes, ::testing::Contains(Point2{0.5, 0}));
+    EXPECT_THAT(mesh.nodes, ::testing::Contains(Point2{-0.1, 0.5}));
+}
+
 }  // namespace
 }  // namespace gneiss
