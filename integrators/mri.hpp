@@ -7,8 +7,8 @@
 //
 // Between the stages of the slow method the fast part is integrated by an explicit Runge-Kutta method, with steps from
 // its error estimate, under a polynomial in time that stands for the slow part. The stability of the slow part bounds
-// the step; nothing looks after that. What contact and joints remember moves on in every short step, what materials
-// remember once in a long one.
+// the step, and one that is above is warned of. What contact and joints remember moves on in every short step, what
+// materials remember once in a long one.
 
 #include <span>
 #include <string>
@@ -23,6 +23,8 @@ struct MultirateTable {
     const char* name;
     int id;  ///< SUNDIALS' number
     int order;
+    double
+        limit;  ///< of omega dt, omega the largest of the slow part, without damping; measured: integrators/README.md
 };
 
 std::span<const MultirateTable> multirate_tables();
@@ -55,6 +57,7 @@ private:
     std::size_t failed_trials() override;
     std::string flag_name(int flag) override;
     double fixed_step() const override { return options_.dt; }
+    std::string doubt(const FrequencyBound& bound) const override;
     using Rates = int (*)(double t, N_Vector y, N_Vector dydt, void* self);
     static Rates slow_rates();
     static Rates fast_rates();

@@ -57,7 +57,9 @@ void SundialsOde::allocate(const SemiDiscrete& system) {
 void SundialsOde::start(const SemiDiscrete& system, State& state, StartReason why) {
     const bool anew = why != StartReason::reinitialise;
     if (why == StartReason::fresh) {
-        omega_ = system.frequency_bound(state).omega;
+        const FrequencyBound bound = system.frequency_bound(state);
+        omega_ = bound.omega;
+        doubt_ = doubt(bound);
         scales_ = ProblemScales(options_.scales);
         counts_ = {};
     }
@@ -119,6 +121,7 @@ StepReport SundialsOde::advance(const SemiDiscrete& system, State& state, double
     report.n_rejected = failed_trials() - failed_before_;
     failed_before_ += report.n_rejected;
     report.n_force = counts().rates - rates_before;
+    report.warning = std::exchange(doubt_, {});
     return report;
 }
 

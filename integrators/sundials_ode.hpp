@@ -85,6 +85,12 @@ protected:
     virtual std::string flag_name(int flag) = 0;
     /// Length of the fixed step, s; 0: the solver chooses.
     virtual double fixed_step() const { return 0; }
+    /// What a user should know of the step's length before the first one; empty: nothing.
+    /// @param bound  where the run starts
+    virtual std::string doubt(const FrequencyBound& bound) const {
+        (void)bound;
+        return {};
+    }
 
     // ---- what they build on
     /// Of Newton's method in a step: more than SUNDIALS' own 3 or 4, for what NewtonSystem leaves out.
@@ -158,6 +164,7 @@ private:
     Counts counts_;
     std::size_t failed_before_ = 0;
     double correction_before_ = 0;  ///< norm, in Newton's method
+    std::string doubt_;             ///< to be told with the first step
     mutable std::vector<double> partial_;
 };
 

@@ -6,18 +6,29 @@
 
 #include "model/energy_ledger.hpp"
 #include "model/options.hpp"
+#include "system/semi_discrete.hpp"
 
 namespace gneiss {
 
 /// What a run remembers of its energy balance; part of a checkpoint.
 struct BalanceRecord {
-    double largest_entry = 0;                                         ///< of the energy balance so far, J
-    double most_gained = 0, most_lost = 0;                            ///< largest left over of either sign, by size, J
+    double largest_entry = 0;               ///< of the energy balance so far, J; at first least_energy()
+    double most_gained = 0, most_lost = 0;  ///< largest left over of either sign, by size, J
     double doubtful_since = std::numeric_limits<double>::infinity();  ///< s; infinite: it is not
     double gaining_since = std::numeric_limits<double>::infinity();   ///< s, past run.most_energy_gained
 
     friend bool operator==(const BalanceRecord&, const BalanceRecord&) = default;
 };
+
+/// What a balance error is measured by at least, J: neither vibration by round-off of a body at rest nor what comes in
+/// with the first, smallest part of a load is an energy of the run. Two bounds from below, added:
+///
+///     (1/2) sum m (omega eps L)^2    positions are known to L eps, the fastest vibration has the frequency omega
+///     c (1/2) sum f^2/(m omega^2)    what the loads where they are largest or fastest give to nodes within 1/omega, or
+///                                    m v^2/2 of supports; c = 1e-4
+/// @param at_start  of the run
+/// @param extent    L, largest coordinate, m
+double least_energy(const SemiDiscrete& system, const State& at_start, double extent);
 
 /// Looks at every row. A balance that is out for less than a hundredth of the run does not count yet: when energy first
 /// comes in, errors are large against the little that there is.

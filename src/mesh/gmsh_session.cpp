@@ -1,8 +1,10 @@
 #include "mesh/gmsh_session.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <clocale>
+#include <map>
 #include <utility>
 
 namespace gneiss {
@@ -63,12 +65,20 @@ std::vector<std::string> GmshSession::warnings() const {
 void GmshSession::throw_errors(const std::string& where, std::size_t n_before,
                                const std::function<bool(const std::string&)>& harmless) {
     const std::vector<std::string> found = errors();
-    std::vector<Problem> problems;
+    std::vector<std::pair<std::string, int>> each;  // and how often
+    std::map<std::string, std::size_t> place;
     for (std::size_t i = n_before; i < found.size(); ++i) {
-        if (harmless && harmless(found[i]))
-            harmless_.push_back(found[i]);
+        const auto [at, is_new] = place.try_emplace(found[i], each.size());
+        if (is_new) each.emplace_back(found[i], 0);
+        ++each[at->second].second;
+    }
+    std::vector<Problem> problems;
+    for (const auto& [error, times] : each) {
+        const std::string told = times == 1 ? error : fmt::format("{} ({} times)", error, times);
+        if (harmless && harmless(error))
+            harmless_.push_back(told);
         else
-            problems.push_back({where, found[i]});
+            problems.push_back({where, told});
     }
     if (!problems.empty()) throw InputError(std::move(problems));
 }

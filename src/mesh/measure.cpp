@@ -66,4 +66,10 @@ MeshSize mesh_size(const Mesh& mesh) {
     return size;
 }
 
+double largest_coordinate(const Mesh& mesh) {
+    double largest = 0;
+    for (const auto& [x, y] : mesh.nodes) largest = std::max({largest, std::abs(x), std::abs(y)});
+    return largest;
+}
+
 }  // namespace gneiss

@@ -24,4 +24,7 @@ struct MeshSize {
 };
 MeshSize mesh_size(const Mesh& mesh);
 
+/// By size, m: nodes are known to round-off of it.
+double largest_coordinate(const Mesh& mesh);
+
 }  // namespace gneiss

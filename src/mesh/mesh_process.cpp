@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <string_view>
 #include <system_error>
 
 #include "mesh/draft_file.hpp"
@@ -35,31 +36,46 @@ MeshProcess& settings() {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// An empty file that is gone when this is.
-class ResultFile {
+/// A folder that is gone with all that is in it when this is: what the child leaves where it is ended as well.
+class TemporaryFolder {
 public:
-    ResultFile() {
+    TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "gneiss-mesh-XXXXXX").string();
-        const int descriptor = mkostemp(name.data(), O_CLOEXEC);
-        if (descriptor < 0) fail("temporary file");
-        close(descriptor);
+        if (mkdtemp(name.data()) == nullptr) fail("temporary folder");
         path_ = name;
     }
-    ~ResultFile() {
+    ~TemporaryFolder() {
         std::error_code ignored;
-        fs::remove(path_, ignored);
+        fs::remove_all(path_, ignored);
     }
-    ResultFile(const ResultFile&) = delete;
-    ResultFile& operator=(const ResultFile&) = delete;
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     const fs::path& path() const { return path_; }
 
 private:
     fs::path path_;
 };
 
+/// Environment variables of this process with another folder for temporary files.
+std::vector<std::string> environment_with(const fs::path& temporary) {
+    std::vector<std::string> all;
+    for (char** variable = environ; *variable != nullptr; ++variable)
+        if (std::string_view(*variable).rfind("TMPDIR=", 0) != 0) all.emplace_back(*variable);
+    all.push_back("TMPDIR=" + temporary.string());
+    return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+    std::vector<char*> all;
+    for (std::string& word : words) all.push_back(word.data());
+    all.push_back(nullptr);
+    return all;
+}
+
 volatile std::sig_atomic_t signal_that_came = 0;
 
-/// While one lives, SIGINT and SIGTERM are noted instead of ending the process; those that it ignores stay ignored.
+/// While one lives, SIGINT, SIGTERM and SIGHUP are noted instead of ending the process; those that it ignores stay
+/// ignored.
 class SignalNote {
 public:
     SignalNote() {
@@ -79,7 +95,7 @@ public:
     SignalNote& operator=(const SignalNote&) = delete;
 
 private:
-    static constexpr std::array signals{SIGINT, SIGTERM};
+    static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
     std::array<struct sigaction, signals.size()> former_{};
 };
 
@@ -88,7 +104,7 @@ class Child {
 public:
     /// A new program, not a copy of this one: a copy would have neither the threads of this process nor the locks that
     /// they hold.
-    explicit Child(std::vector<std::string> command) {
+    Child(std::vector<std::string> command, std::vector<std::string> environment) {
         std::array<int, 2> ends;
         if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
         output_ = ends[0];
@@ -97,10 +113,8 @@ public:
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-        std::vector<char*> words;
-        for (std::string& word : command) words.push_back(word.data());
-        words.push_back(nullptr);
-        const int error = posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), environ);
+        const std::vector<char*> words = pointers(command), variables = pointers(environment);
+        const int error = posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), variables.data());
         posix_spawn_file_actions_destroy(&actions);
         close(ends[1]);
         if (error != 0) {
@@ -179,12 +193,13 @@ MeshDraft read_gmsh_apart(const fs::path& file, const std::map<std::string, doub
     if (process.program.empty()) return read_gmsh(file, parameters);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point started = Clock::now();
-    const ResultFile result;
-    std::vector<std::string> command{process.program.string(), std::string(mesh_process_command),
-                                     result.path().string(), file.string()};
+    const TemporaryFolder temporary;
+    const fs::path result = temporary.path() / "draft";
+    std::vector<std::string> command{process.program.string(), std::string(mesh_process_command), result.string(),
+                                     file.string()};
     for (const auto& [name, value] : parameters) command.push_back(fmt::format("{}={:.17g}", name, value));
     const SignalNote note;
-    Child child(std::move(command));
+    Child child(std::move(command), environment_with(temporary.path()));
     while (child.listen() && signal_that_came == 0)
         if (process.progress)
             process.progress(file, std::chrono::duration<double>(Clock::now() - started).count(),
@@ -196,9 +211,9 @@ MeshDraft read_gmsh_apart(const fs::path& file, const std::map<std::string, doub
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
         throw MeshInterrupted(WTERMSIG(status));
     if (status != 0) throw InputError(file.string(), how_it_ended(status, child.last_lines()));
-    if (fs::file_size(result.path()) == 0)
+    if (!fs::exists(result))
         throw InputError(file.string(), "Gmsh ended at work on it, before there was a mesh: by a statement Exit?");
-    DraftOrProblems read = read_draft(result.path());
+    DraftOrProblems read = read_draft(result);
     if (auto* problems = std::get_if<std::vector<Problem>>(&read)) throw InputError(std::move(*problems));
     return std::get<MeshDraft>(std::move(read));
 }

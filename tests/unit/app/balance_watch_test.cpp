@@ -99,6 +99,7 @@ TEST_F(Balance, Text_NamesWhatMayBeWrongWithTheScheme) {
               "vibration");
     EXPECT_THAT(text("ida", -0.1), HasSubstr("have got lost: bdf damps what its steps do not resolve"));
     EXPECT_THAT(text("arkode", 0.1), HasSubstr("at the limit of stability"));
+    EXPECT_THAT(text("arkode", -0.1), HasSubstr("have got lost: the scheme damps what its steps do not resolve"));
     EXPECT_THAT(text("bathe", -0.1), HasSubstr("the scheme damps what its steps do not resolve"));
     EXPECT_THAT(text("newmark", 0.1), HasSubstr("too long for contact"));
     EXPECT_THAT(text("noh_bathe", -0.1), HasSubstr("`split = 0.5`"));

@@ -74,14 +74,26 @@ TEST(Mri, StiffInteractions_StepsThatResolveThem_ConvergeWithTheOrder) {
 }
 
 TEST(Mri, Limit_OfTheSlowPartAlone_IsTheTables) {
-    // as measured: integrators/README.md tells them
-    const double limits[] = {3.79, 2.63, 2.96};
-    for (std::size_t k = 0; k < multirate_tables().size(); ++k) {
-        const char* const name = multirate_tables()[k].name;
+    for (const MultirateTable& table : multirate_tables()) {
         const double limit =
-            test::stability_limit([&](double dt) { return std::make_unique<Mri>(with(name, dt, 1e-10)); }, 6);
-        EXPECT_NEAR(limit, limits[k], 0.01) << name;
+            test::stability_limit([&](double dt) { return std::make_unique<Mri>(with(table.name, dt, 1e-10)); }, 6);
+        EXPECT_NEAR(limit, table.limit, 0.01) << table.name;
     }
+}
+
+TEST(Mri, StepAboveTheLimitOfTheSlowPart_IsWarnedOfOnce) {
+    test::OscillatorModel model = stiff_contact();
+    model.bound = {.omega = 10, .damping_rate = 0, .of_bonds = 64};  // 6 without bonds
+    const test::Oscillator system(model);
+    for (const MultirateTable& table : multirate_tables())
+        for (const double part : {0.99, 1.01}) {
+            Mri mri(with(table.name, part * table.limit / 6, 1e-6));
+            State state = system.initial_state();
+            mri.start(system, state, StartReason::fresh);
+            const std::string first = mri.advance(system, state, 10).warning;
+            EXPECT_EQ(first.empty(), part < 1) << table.name << first;
+            EXPECT_EQ(mri.advance(system, state, 10).warning, "");
+        }
 }
 
 TEST(Mri, StiffInteractions_LoadsAndDamping_BalanceAgainstTheEnergy) {

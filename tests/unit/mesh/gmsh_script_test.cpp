@@ -111,6 +111,8 @@ TEST_F(GmshFile, Geo_ErrorsThatLeaveTheGeometryAlone_AreWarnings) {
     const std::size_t plain = read("ring.geo", ring_geo).n_elements();
     EXPECT_EQ(read("ring.geo", std::string(ring_geo) + "Mesh.NoSuchOption = 1;\n").n_elements(), plain);
     EXPECT_THAT(report.warnings, ElementsAre("Gmsh: Unknown number option 'Mesh.NoSuchOption'"));
+    read("ring.geo", std::string(ring_geo) + "For i In {1:3} Mesh.NoSuchOption = i; EndFor\n");
+    EXPECT_THAT(report.warnings, ElementsAre("Gmsh: Unknown number option 'Mesh.NoSuchOption' (3 times)"));
     EXPECT_GT(read("ring.geo", std::string(ring_geo) + "Transfinite Curve{1} = 3; Transfinite Curve{3} = 4; "
                                                        "Transfinite Surface{1};\n")
                   .n_elements(),

@@ -27,6 +27,12 @@ TEST(Measure, Cst_HasItsOwnCentroidAndArea) {
     EXPECT_NEAR(element_centroids(mesh).at(0)[1], 1, round_off);
 }
 
+TEST(LargestCoordinate, OfAnySign) {
+    Mesh mesh;
+    mesh.nodes = {{1, -2}, {-3, 0.5}};
+    EXPECT_EQ(largest_coordinate(mesh), 3);
+}
+
 TEST(MeshSize, Rectangle_CountsAndMeasuresSubEdges) {
     MeshOptions options;
     options.width = 4;

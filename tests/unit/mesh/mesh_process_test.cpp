@@ -4,6 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "mesh/draft_file.hpp"
 #include "tests/unit/mesh/mesh_testing.hpp"
 
@@ -128,6 +131,21 @@ TEST_F(MeshInAProcess, Interrupt_StopsTheProgramAndIsPassedOn) {
     } catch (const MeshInterrupted& interrupted) {
         EXPECT_EQ(interrupted.signal, SIGINT);
     }
+}
+
+TEST_F(MeshInAProcess, TemporaryFiles_AreGoneHoweverTheProgramEnds) {
+    const std::filesystem::path temporary = folder.path() / "tmp";
+    std::filesystem::create_directory(temporary);
+    const char* const before = std::getenv("TMPDIR");
+    const std::string former = before == nullptr ? "" : before;
+    ::setenv("TMPDIR", temporary.c_str(), 1);
+    const std::string leave = "touch $TMPDIR/left; test -e $TMPDIR/left || exit 9; ";
+    EXPECT_EQ(read(leave + "cp " + folder.path().string() + "/ready $2\n").nodes, small_draft().nodes);
+    EXPECT_THAT(error_of(leave + "kill -KILL $$\n"), HasSubstr("of signal 9"));
+    EXPECT_THROW(read(leave + "kill -TERM $PPID; exec sleep 60\n"), MeshInterrupted);
+    EXPECT_THROW(read(leave + "kill -HUP $PPID; exec sleep 60\n"), MeshInterrupted);
+    EXPECT_TRUE(std::filesystem::is_empty(temporary));
+    before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", former.c_str(), 1);
 }
 
 TEST_F(MeshInAProcess, ProgramThatIsNotThere_IsAnError) {
