@@ -396,6 +396,14 @@ void Inspection::output() {
           std::pair("output.states", options.output.states), std::pair("run.checkpoint", options.run.checkpoint)})
         if (interval > t_end)
             warn("{}: an interval of {:.4g} s is longer than the run, {:.4g} s", key, interval, t_end);
+    constexpr double many_rows = 1e6;  // hundreds of MB of a table; what was meant is a row for each step
+    if (const double rows = t_end / options.output.history;
+        options.output.history > 0 && !options.output.rows_at_steps && rows > many_rows)
+        warn(
+            "output.history: {:.2g} rows, each at its own time, make as many steps; `rows = \"steps\"` has at most a "
+            "row for "
+            "a step",
+            rows);
 
     // columns of field_frames, before they are compressed; a state has displacement, velocity and stress
     constexpr double per_node = 8 * (3 + 3 + 3 + 1), per_triangle = 8 * (3 + 4 + 4 + 3 + 3) + 3 * 8 + 2 * 4,

@@ -53,7 +53,7 @@ def breaking_deck(method: str, cells: int) -> Deck:
                       "amplitude": {"type": "ramp", "end": 1.0}}],
         "integrator": {"type": "quasi_static", "step": 1 / STEPS, "longest": 1 / STEPS},
         "run": {"t_end": 1.0},
-        "output": {"history": 1e-9},
+        "output": {"history": 1e-9, "rows": "steps"},
     }
 
 

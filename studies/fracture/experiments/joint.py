@@ -98,7 +98,7 @@ def extrinsic_deck(steps: int) -> Deck:
                       "amplitude": {"type": "table", "times": [float(t) for t, _ in points], "values": [float(o) for _, o in points]}}],
         "integrator": {"type": "quasi_static", "step": 1 / steps, "longest": 1 / steps, "tolerance": 1e-5},
         "run": {"t_end": 1.0},
-        "output": {"history": 1e-9},
+        "output": {"history": 1e-9, "rows": "steps"},
     }
 
 

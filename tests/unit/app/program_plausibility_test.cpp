@@ -57,6 +57,8 @@ TEST_F(ProgramPlausibility, NumbersThatHardlyAreMeant_AreWarnedOf) {
              {{strength, "fracture.method=intrinsic"}, "a tensile strength of 3 Pa is 2.5e-09 of the modulus"},
              {{"output.fields=1.0"}, "output.fields: an interval of 1 s is longer than the run, 0.001 s"},
              {{"run.checkpoint=1.0"}, "run.checkpoint: an interval of 1 s is longer than the run"},
+             {{"output.history=1e-10"},
+              "output.history: 1e+07 rows, each at its own time, make as many steps; `rows = "},
              {{"material.0.form=hypo", "material.0.in_situ_stress=[-1e6, -1e6, 0]", "load.0.value=[0, 1]",
                "load.0.type=traction"},
               "in_situ_stress of up to 1e+06 Pa is out of balance at the start"},
