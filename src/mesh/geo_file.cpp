@@ -51,20 +51,33 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-/// The text with // and /* */ comments blanked out. A string that holds // loses its end, which does no harm below.
-std::string without_comments(std::string text) {
-    for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos && at + 1 < text.size();) {
-        std::size_t end = at + 1;
-        if (text[at + 1] == '/')
-            end = text.find('\n', at);
-        else if (text[at + 1] == '*')
-            end = std::min(text.find("*/", at + 2), text.size() - 2) + 2;
-        end = std::min(end, text.size());
-        if (end > at + 1) std::fill(text.begin() + static_cast<long>(at), text.begin() + static_cast<long>(end), ' ');
-        at = end;
+/// A script as Gmsh takes it: the text with // and /* */ comments blanked out, and what strings hold as well.
+struct Script {
+    std::string with_strings, statements;
+
+    explicit Script(const std::string& text) : with_strings(text), statements(text) {
+        for (std::size_t at = 0; (at = text.find_first_of("/\"'", at)) != std::string::npos;) {
+            const auto past = [&](std::string_view what, std::size_t from) {
+                const std::size_t found = text.find(what, from);
+                return found == std::string::npos ? text.size() : found + what.size();
+            };
+            const auto blank = [&](std::string& in, std::size_t begin, std::size_t end) {
+                std::fill(in.begin() + static_cast<long>(begin), in.begin() + static_cast<long>(end), ' ');
+            };
+            const bool is_string = text[at] != '/', is_line = text.compare(at, 2, "//") == 0;
+            std::size_t end = at + 1;
+            if (is_string)
+                end = past(std::string_view(text).substr(at, 1), at + 1);
+            else if (is_line)
+                end = std::min(text.find('\n', at), text.size());
+            else if (text.compare(at, 2, "/*") == 0)
+                end = past("*/", at + 2);
+            if (end > at + 1) blank(statements, at, end);
+            if (end > at + 1 && !is_string) blank(with_strings, at, end);
+            at = end;
+        }
     }
-    return text;
-}
+};
 
 bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -106,14 +119,17 @@ std::vector<fs::path> included(const fs::path& file, const std::string& geo) {
     return files;
 }
 
-/// What would go wrong unseen: Exit ends the whole process, parameters that nobody asks for are taken in silence, and
-/// Gmsh skips the last line of an included file where no line break ends it.
-void check_geo(const fs::path& file, const std::string& geo, const std::map<std::string, double>& parameters) {
-    const bool reads_others = has_word(geo, "Include") || has_word(geo, "Merge");  // a parameter may be used there
+/// What would go wrong unseen: Exit ends the process that Gmsh is at work in, parameters that nobody asks for are taken
+/// in silence, and Gmsh skips the last line of an included file where no line break ends it.
+void check_geo(const fs::path& file, const Script& geo, const std::map<std::string, double>& parameters) {
+    const bool reads_others =
+        has_word(geo.statements, "Include") || has_word(geo.statements, "Merge");  // a parameter may be used there
     std::vector<Problem> problems;
-    if (has_word(geo, "Exit"))
-        problems.push_back({file.string(), "the statement Exit would end the program: use Abort, or take it out"});
-    for (const fs::path& other : included(file, geo))
+    if (has_word(geo.statements, "Exit"))
+        problems.push_back({file.string(),
+                            "the statement Exit would end Gmsh before the mesh is taken over: use Abort, "
+                            "or take it out"});
+    for (const fs::path& other : included(file, geo.with_strings))
         if (ends_within_a_line(text_of(other)))
             problems.push_back({other.string(),
                                 "the last line does not end in a line break: Gmsh would skip it where the file is "
@@ -121,16 +137,17 @@ void check_geo(const fs::path& file, const std::string& geo, const std::map<std:
     for (const auto& [name, value] : parameters) {
         if (!is_name(name))
             problems.push_back({file.string(), fmt::format("parameter \"{}\" is not a name that Gmsh can read", name)});
-        else if (!reads_others && !has_word(geo, name))
+        else if (!reads_others && !has_word(geo.with_strings, name))
             problems.push_back({file.string(), fmt::format("parameter \"{}\" does not occur in the file", name)});
     }
     if (!problems.empty()) throw InputError(problems);
 }
 
 /// The file as Gmsh reads all of it: itself, or a copy whose last line ends in a line break.
-std::unique_ptr<TemporaryFile> mended(const fs::path& file, const std::string& text, const std::string& geo) {
+std::unique_ptr<TemporaryFile> mended(const fs::path& file, const std::string& text, const Script& geo) {
     if (!ends_within_a_line(text)) return nullptr;
-    const fs::path folder = knows_its_folder(geo) ? fs::absolute(file).parent_path() : fs::temp_directory_path();
+    const fs::path folder =
+        knows_its_folder(geo.statements) ? fs::absolute(file).parent_path() : fs::temp_directory_path();
     try {
         return std::make_unique<TemporaryFile>(folder, text + '\n');
     } catch (const std::system_error& error) {
@@ -159,7 +176,8 @@ bool is_harmless(const std::string& error) {
 }  // namespace
 
 void mesh_geo(GmshSession& session, const fs::path& file, const std::map<std::string, double>& parameters) {
-    const std::string where = file.string(), text = text_of(file), geo = without_comments(text);
+    const std::string where = file.string(), text = text_of(file);
+    const Script geo(text);
     check_geo(file, geo, parameters);
     // Gmsh refuses to read an empty file: a comment makes sure that there is something.
     std::string definitions = "// parameters\n", comparisons = definitions;

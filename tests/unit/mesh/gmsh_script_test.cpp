@@ -79,11 +79,15 @@ TEST_F(GmshFile, Geo_Faulty_IsRefusedWithLine) {
                                  ::testing::ContainsRegex("less than 2 control points \\([0-9]+ times\\)$")));
 }
 
-TEST_F(GmshFile, Geo_Exit_IsRefusedButNotInComments) {
+TEST_F(GmshFile, Geo_Exit_IsRefusedButNotInCommentsAndNames) {
     EXPECT_THAT(error_of("exit.geo", std::string(ring_geo) + "Exit;\n"),
-                HasSubstr("the statement Exit would end the program"));
+                HasSubstr("the statement Exit would end Gmsh before the mesh is taken over"));
+    // a comment that begins within a string is none, a quotation mark within a comment begins no string
+    EXPECT_THAT(error_of("exit.geo", std::string(ring_geo) + "Printf(\"a // b /*\"); // \"\nExit;\n"),
+                HasSubstr("the statement Exit"));
     EXPECT_GT(
         read("ring.geo", std::string("// Exit;\n/* Exit; */\n/*/ Exit; */") + ring_geo + "// Exit\n").n_elements(), 0u);
+    EXPECT_EQ(read("ring.geo", replaced(ring_geo, "\"inner\"", "\"Exit\"")).boundaries.count("Exit"), 1u);
 }
 
 TEST_F(GmshFile, Geo_WithoutLastLineBreak_IsReadToItsEnd) {
