@@ -77,8 +77,8 @@ private:
         constexpr int deepest = 20;
         if (depth > deepest) throw InputError(file.string(), "files include each other");
         std::ifstream stream = opened(file, from);
+        const auto name = std::make_shared<const std::string>(file.string());
         std::string line, whole;
-        bool goes_on = false;  // the line before ended in a comma
         for (int number = 1; std::getline(stream, line); ++number) {
             line = trimmed(line);
             if (line.empty() || line.starts_with("**")) continue;
@@ -89,7 +89,6 @@ private:
                     ++number;
                 }
                 AbaqusKeyword keyword = keyword_of(line, where);
-                goes_on = false;
                 if (keyword.name == "STEP") return false;
                 if (keyword.name == "INCLUDE") {
                     if (!add(file.parent_path() / keyword.value("INPUT"), depth + 1, where)) return false;
@@ -102,8 +101,7 @@ private:
             }
             if (keywords_.empty())
                 throw InputError(file.string(), "is no input file of Abaqus: it does not begin with a keyword");
-            add_data(line, goes_on);
-            goes_on = ends_in_comma(line);
+            add_data(line, name, number);
         }
         return true;
     }
@@ -111,30 +109,24 @@ private:
     /// Lines of data in a file of their own.
     void read_data(const fs::path& file, const std::string& from) {
         std::ifstream stream = opened(file, from);
+        const auto name = std::make_shared<const std::string>(file.string());
         std::string line;
-        bool goes_on = false;
-        while (std::getline(stream, line)) {
+        for (int number = 1; std::getline(stream, line); ++number) {
             line = trimmed(line);
-            if (line.empty() || line.starts_with("**")) continue;
-            add_data(line, goes_on);
-            goes_on = ends_in_comma(line);
+            if (!line.empty() && !line.starts_with("**")) add_data(line, name, number);
         }
     }
 
-    void add_data(const std::string& line, bool goes_on) {
-        auto& data = keywords_.back().data;
-        std::vector<std::string> entries = entries_of(line);
-        const bool is_whole = keywords_.back().name == "NODE";  // each node has a line, whatever that ends in
-        if (goes_on && !data.empty() && !is_whole)
-            data.back().insert(data.back().end(), entries.begin(), entries.end());
-        else
-            data.push_back(std::move(entries));
+    void add_data(const std::string& line, const std::shared_ptr<const std::string>& file, int number) {
+        keywords_.back().data.push_back({entries_of(line), ends_in_comma(line), file, number});
     }
 
     std::vector<AbaqusKeyword> keywords_;
 };
 
 }  // namespace
+
+std::string AbaqusLine::where() const { return fmt::format("{}:{}", *file, number); }
 
 std::string AbaqusKeyword::value(const std::string& parameter) const {
     const auto found = parameters.find(parameter);

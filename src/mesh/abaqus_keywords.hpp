@@ -3,17 +3,28 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace gneiss {
 
+/// A line of data.
+struct AbaqusLine {
+    std::vector<std::string> entries;  ///< between commas; the empty one behind a comma at the end is none
+    bool ends_in_comma;                ///< what it begins may go on below, if it is not complete
+    std::shared_ptr<const std::string> file;
+    int number;  ///< in the file, from 1
+
+    std::string where() const;  ///< "mesh.inp:13"
+};
+
 /// `*ELSET, ELSET=rock, GENERATE` and the lines below it, up to the next keyword.
 struct AbaqusKeyword {
     std::string name;                               ///< "ELSET": capitals, one blank between words
     std::map<std::string, std::string> parameters;  ///< by name in capitals; values as written, "" where there is none
-    std::vector<std::vector<std::string>> data;     ///< entries of each line; a line that ends in a comma goes on below
-    std::string where;                              ///< "mesh.inp:12"
+    std::vector<AbaqusLine> data;
+    std::string where;  ///< "mesh.inp:12"
 
     bool has(const std::string& parameter) const { return parameters.contains(parameter); }
     /// Empty where it is not given.

@@ -90,23 +90,6 @@ std::optional<double> real_in(std::string text) {
     return text.empty() ? std::optional(0.0) : number_in<double>(text);
 }
 
-using Lines = std::vector<std::vector<std::string>>;
-
-/// Lines that all end in a comma have become one: they are parted again.
-/// @param n  entries that each has
-Lines one_a_line(const Lines& joined, std::size_t n) {
-    Lines lines;
-    for (const auto& line : joined) {
-        if (line.size() % n != 0) {
-            lines.push_back(line);
-            continue;
-        }
-        for (auto first = line.begin(); first != line.end(); first += static_cast<std::ptrdiff_t>(n))
-            lines.emplace_back(first, first + static_cast<std::ptrdiff_t>(n));
-    }
-    return lines;
-}
-
 class AbaqusReader {
 public:
     explicit AbaqusReader(const std::filesystem::path& file) { draft_.where = file.string(); }
@@ -134,6 +117,10 @@ private:
 
     void error(const AbaqusKeyword& keyword, std::string message) {
         problems_.push_back({keyword.where, fmt::format("*{}: {}", keyword.name, message)});
+    }
+    void error(const AbaqusKeyword& keyword, const AbaqusLine& line, const std::string& message) {
+        problems_.push_back(
+            {line.where(), fmt::format("*{}: \"{}\" is not {}", keyword.name, fmt::join(line.entries, ", "), message)});
     }
 
     /// What a keyword of a mesh speaks about: an instance that it names, the one that is open, a part, or the file.
@@ -168,12 +155,14 @@ private:
     void take_nodes(const AbaqusKeyword& keyword) {
         Part& part = scope(keyword);
         Set* const set = set_of(part.node_sets, keyword, "NSET");
-        for (const auto& line : keyword.data) {
-            const auto label = number_in<std::int64_t>(line.at(0));
-            std::array<std::optional<double>, 3> at{0.0, 0.0, 0.0};
-            for (std::size_t k = 0; k < 3 && k + 1 < line.size(); ++k) at[k] = real_in(line[k + 1]);
-            if (!label || !at[0] || !at[1] || !at[2])
-                return error(keyword, fmt::format("\"{}\" is not a node and its coordinates", fmt::join(line, ", ")));
+        for (const AbaqusLine& line : keyword.data) {
+            const auto& entries = line.entries;
+            const auto label = number_in<std::int64_t>(entries.at(0));
+            std::array<std::optional<double>, 3> at{0.0, 0.0, 0.0};  // of those that are left out
+            for (std::size_t k = 0; k < 3 && k + 1 < entries.size(); ++k) at[k] = real_in(entries[k + 1]);
+            constexpr std::size_t fewest = 2, most = 4;
+            if (entries.size() < fewest || entries.size() > most || !label || !at[0] || !at[1] || !at[2])
+                return error(keyword, line, "a node and its coordinates, three at most");
             part.nodes.push_back({*label, {*at[0], *at[1], *at[2]}});
             if (set != nullptr) set->labels.insert(*label);
         }
@@ -193,18 +182,23 @@ private:
                                               type));
         Part& part = scope(keyword);
         Set* const set = set_of(part.element_sets, keyword, "ELSET");
-        for (const auto& line : one_a_line(keyword.data, n + 1)) {
+        for (std::size_t k = 0; k < keyword.data.size(); ++k) {
+            AbaqusLine line = keyword.data[k];
+            // a comma behind the last node of an element is one too many and goes on nowhere
+            while (line.ends_in_comma && line.entries.size() <= n && k + 1 < keyword.data.size()) {
+                const AbaqusLine& below = keyword.data[++k];
+                line.entries.insert(line.entries.end(), below.entries.begin(), below.entries.end());
+                line.ends_in_comma = below.ends_in_comma;
+            }
             Element element{0, is_triangle, {}};
-            bool good = line.size() > n;
+            bool good = line.entries.size() == n + 1;
             for (std::size_t i = 0; i <= n && good; ++i) {
-                const auto label = number_in<std::int64_t>(line[i]);
+                const auto label = number_in<std::int64_t>(line.entries[i]);
                 good = label.has_value();
                 if (i == 0 && good) element.label = *label;
                 if (i > 0 && good) element.nodes.push_back(*label);
             }
-            if (!good)
-                return error(keyword,
-                             fmt::format("\"{}\" is not an element and its {} nodes", fmt::join(line, ", "), n));
+            if (!good) return error(keyword, line, fmt::format("an element and its {} nodes", n));
             if (set != nullptr) set->labels.insert(element.label);
             part.elements.push_back(std::move(element));
         }
@@ -225,18 +219,20 @@ private:
         if (set == nullptr) return error(keyword, fmt::format("{} is missing", parameter));
         if (parameter == "NSET" && keyword.has("ELSET"))
             return error(keyword, "nodes of a set of elements are not read: write them out");
-        for (const auto& line : keyword.data) {
+        for (const AbaqusLine& line : keyword.data) {
+            const auto& entries = line.entries;
             if (keyword.has("GENERATE")) {
-                const auto first = number_in<std::int64_t>(line.at(0));
-                const auto last = line.size() > 1 ? number_in<std::int64_t>(line[1]) : first;
-                const auto step = line.size() > 2 ? number_in<std::int64_t>(line[2]) : 1;
-                if (!first || !last || !step || *step < 1)
-                    return error(keyword,
-                                 fmt::format("\"{}\" is not a first, a last number and a step", fmt::join(line, ", ")));
+                constexpr std::size_t fewest = 2, most = 3;
+                const auto first = number_in<std::int64_t>(entries.at(0));
+                const auto last = entries.size() > 1 ? number_in<std::int64_t>(entries[1]) : std::nullopt;
+                const auto step = entries.size() > 2 ? number_in<std::int64_t>(entries[2]) : 1;
+                if (entries.size() < fewest || entries.size() > most || !first || !last || !step || *step < 1 ||
+                    *last < *first)
+                    return error(keyword, line, "a first number, a last one not below it, and a step");
                 for (std::int64_t label = *first; label <= *last; label += *step) set->labels.insert(label);
                 continue;
             }
-            for (const std::string& entry : line) {
+            for (const std::string& entry : entries) {
                 if (const auto label = number_in<std::int64_t>(entry)) {
                     set->labels.insert(*label);
                 } else if (const auto other = sets.find(capitals(entry)); other != sets.end()) {
@@ -274,8 +270,11 @@ private:
             scopes.clear();
             for (Instance& instance : instances_) scopes.push_back(&instance.part);
         }
-        for (const auto& line : keyword.data) {
-            const std::string face = line.size() > 1 ? capitals(line[1]) : "";
+        for (const AbaqusLine& line : keyword.data) {
+            constexpr std::size_t most = 2;
+            const std::string what = capitals(line.entries.at(0));
+            const std::string face = line.entries.size() > 1 ? capitals(line.entries[1]) : "";
+            if (line.entries.size() > most) return error(keyword, line, "an element, or a set of them, and a face");
             const int number =
                 face.size() == 2 && face[0] == 'S' && face[1] >= '1' && face[1] <= '3' ? face[1] - '0' : 0;
             if (number == 0 && !face.empty() && face != "SPOS" && face != "SNEG")
@@ -284,16 +283,17 @@ private:
             for (Part* part : scopes) {
                 auto& [written, faces] = part->surfaces[capitals(name)];
                 written = name;
-                const auto set = part->element_sets.find(capitals(line.at(0)));
+                const auto set = part->element_sets.find(what);
                 if (set != part->element_sets.end()) {
                     for (const std::int64_t label : set->second.labels) faces.push_back({label, number});
                     found = true;
-                } else if (const auto label = number_in<std::int64_t>(line[0])) {
+                } else if (const auto label = number_in<std::int64_t>(what)) {
                     faces.push_back({*label, number});
                     found = true;
                 }
             }
-            if (!found) error(keyword, fmt::format("\"{}\" is neither an element nor a set of elements", line[0]));
+            if (!found)
+                error(keyword, fmt::format("\"{}\" is neither an element nor a set of elements", line.entries[0]));
         }
     }
 
@@ -309,9 +309,11 @@ private:
         if (keyword.data.size() > 1) error(keyword, "is rotated, which is not read");
         if (!keyword.data.empty()) {
             std::array<double, 3> by{0, 0, 0};
-            for (std::size_t k = 0; k < 3 && k < keyword.data[0].size(); ++k) {
-                const auto component = real_in(keyword.data[0][k]);
-                if (!component) error(keyword, fmt::format("\"{}\" is not a number", keyword.data[0][k]));
+            const AbaqusLine& line = keyword.data[0];
+            if (line.entries.size() > by.size()) error(keyword, line, "a translation along x, y and z");
+            for (std::size_t k = 0; k < by.size() && k < line.entries.size(); ++k) {
+                const auto component = real_in(line.entries[k]);
+                if (!component) error(keyword, line, "a translation along x, y and z");
                 by[k] = component.value_or(0);
             }
             instance.moved.push_back(by);

@@ -243,11 +243,11 @@ TEST_F(AbaqusFile, WhatIsWrong_IsReportedWithItsLine) {
     EXPECT_EQ(error_of(replaced(square_inp, "12, 1, 3, 4", "12, 1, 3, 44")),
               file() + ": elements name nodes that are not there: node 44");
     EXPECT_EQ(error_of(replaced(square_inp, "12, 1, 3, 4", "12, 1, 3")),
-              file() + ":13: *ELEMENT: \"12, 1, 3\" is not an element and its 3 nodes");
+              file() + ":14: *ELEMENT: \"12, 1, 3\" is not an element and its 3 nodes");
     EXPECT_EQ(error_of(replaced(square_inp, "11, 12, \n", "11, rocks\n")),
               file() + ":17: *ELSET: \"rocks\" is neither a number nor a set");
     EXPECT_EQ(error_of(replaced(square_inp, "3, 2, 2, 0", "3, 2, 2, x")),
-              file() + ":3: *NODE: \"3, 2, 2, x\" is not a node and its coordinates");
+              file() + ":6: *NODE: \"3, 2, 2, x\" is not a node and its coordinates, three at most");
     EXPECT_EQ(error_of(replaced(square_inp, "3, 2, 2, 0", "3, 2, 2, 1")),
               file() + ": the mesh must lie in a plane z = constant: node 3 does not");
     EXPECT_EQ(error_of(square_inp + "*NGEN\n1, 2\n"),
@@ -256,7 +256,54 @@ TEST_F(AbaqusFile, WhatIsWrong_IsReportedWithItsLine) {
     EXPECT_EQ(error_of("*HEADING\n"), file() + ": no triangles: the mesh is empty");
 }
 
-TEST(AbaqusKeywords, ParametersAndData_GoOnBehindACommaAtTheEnd) {
+TEST_F(AbaqusFile, CommaBehindACompleteLine_EndsIt) {
+    const std::string more = R"(*NODE
+5, 4, 0,
+6, 4, 2, 0,
+*ELEMENT, TYPE=CPS3, ELSET=more
+21, 2, 5, 6,
+** 22 goes on below
+22, 2,
+6,
+3,
+)";
+    std::string text = replaced(square_inp, "11, 1, 2, 3\n", "11, 1, 2, 3,\n12, 1, 3, 4,\n");
+    text = replaced(text, "*ELEMENT, type=CPE3, ELSET=Surface2\n12, 1, 3, 4\n", more);
+    text = replaced(text, "11, 12, \n", "11, 12, \n*ELSET, ELSET=each, GENERATE\n11, 12,\n21, 22, 1,\n");
+    const Mesh mesh = read(text);
+    EXPECT_EQ(mesh.n_elements(), 4u);
+    EXPECT_NEAR(total_area(mesh), 8, round_off);
+    const std::vector<std::int32_t> each = regions_named(mesh, "each");
+    for (const std::int32_t region : mesh.region) EXPECT_THAT(each, ::testing::Contains(region));
+}
+
+TEST_F(AbaqusFile, TooManyOrTooFewEntries_AreRefusedWithTheirLine) {
+    const auto with = [&](const std::string& what, const std::string& by) {
+        return error_of(replaced(square_inp, what, by));
+    };
+    EXPECT_EQ(with("11, 1, 2, 3\n", "11, 1, 2, 3, 12, 1, 3, 4\n"),
+              file() + ":12: *ELEMENT: \"11, 1, 2, 3, 12, 1, 3, 4\" is not an element and its 3 nodes");
+    EXPECT_EQ(with("11, 1, 2, 3\n", "11, 1, 2,\n3, 4\n"),
+              file() + ":12: *ELEMENT: \"11, 1, 2, 3, 4\" is not an element and its 3 nodes");
+    EXPECT_EQ(with("12, 1, 3, 4\n", "12, 1, 3,\n"),
+              file() + ":14: *ELEMENT: \"12, 1, 3\" is not an element and its 3 nodes");
+    EXPECT_EQ(with("3, 2, 2, 0\n", "3, 2, 2, 0, 4\n"),
+              file() + ":6: *NODE: \"3, 2, 2, 0, 4\" is not a node and its coordinates, three at most");
+    EXPECT_EQ(with("3, 2, 2, 0\n", "3,\n"),
+              file() + ":6: *NODE: \"3\" is not a node and its coordinates, three at most");
+    const std::string generate = "*NSET, NSET=all, GENERATE\n";
+    for (const char* line : {"1, 4, 1, 5", "1", "4, 1", "1, 4, 0"})
+        EXPECT_EQ(error_of(square_inp + generate + line + ",\n"),
+                  file() + ":22: *NSET: \"" + line + "\" is not a first number, a last one not below it, and a step");
+    EXPECT_EQ(error_of(square_inp + "*SURFACE, NAME=top\n12, S2, 11, S1\n"),
+              file() + ":22: *SURFACE: \"12, S2, 11, S1\" is not an element, or a set of them, and a face");
+    folder.write("nodes.txt", "1, 0, 0\n2, 2, 0, 0, 0\n");
+    EXPECT_EQ(error_of("*NODE, INPUT=nodes.txt\n"),
+              (folder.path() / "nodes.txt").string() +
+                  ":2: *NODE: \"2, 2, 0, 0, 0\" is not a node and its coordinates, three at most");
+}
+
+TEST(AbaqusKeywords, Parameters_GoOnBehindACommaAtTheEnd_AndDataTellTheirLines) {
     const TemporaryFolder folder;
     folder.write("a.inp",
                  "** comment\n*solid  section, elset=\"All of it\",\n material=steel\n1, 2,\n** between\n3\n4\n");
@@ -265,7 +312,12 @@ TEST(AbaqusKeywords, ParametersAndData_GoOnBehindACommaAtTheEnd) {
     EXPECT_EQ(keywords[0].name, "SOLID SECTION");
     EXPECT_EQ(keywords[0].value("ELSET"), "All of it");
     EXPECT_EQ(keywords[0].value("MATERIAL"), "steel");
-    EXPECT_THAT(keywords[0].data, ElementsAre(ElementsAre("1", "2", "3"), ElementsAre("4")));
+    ASSERT_EQ(keywords[0].data.size(), 3u);
+    EXPECT_THAT(keywords[0].data[0].entries, ElementsAre("1", "2"));
+    EXPECT_TRUE(keywords[0].data[0].ends_in_comma);
+    EXPECT_THAT(keywords[0].data[1].entries, ElementsAre("3"));
+    EXPECT_FALSE(keywords[0].data[1].ends_in_comma);
+    EXPECT_EQ(keywords[0].data[1].where(), (folder.path() / "a.inp").string() + ":6");
 }
 
 }  // namespace
