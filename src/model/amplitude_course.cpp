@@ -11,6 +11,7 @@
 
 #include "model/amplitude.hpp"
 #include "model/expression_signals.hpp"
+#include "model/jump_search.hpp"
 
 namespace gneiss {
 namespace {
@@ -246,7 +247,7 @@ void refine(const Signal& signal, const Sample& a, const Sample& b, double toler
 }
 
 /// Straight lines, as long as can be, along samples that vary.
-/// @param shortest  shorter ones are jumps, which no step has to resolve, s
+/// @param shortest  no step has to resolve shorter ones, s
 void add_lines(std::span<const Sample> samples, double tolerance, double shortest,
                std::vector<AmplitudeCourse::Stretch>& stretches) {
     double before = 0;  // length of the last line, s
@@ -319,6 +320,9 @@ public:
         if (no_value_at_)
             course_.warnings.push_back(
                 fmt::format("has no value at t = {:.6g} s: a run that comes there ends", *no_value_at_));
+        else if (pole_at_)
+            course_.warnings.push_back(fmt::format(
+                "grows without bound towards t = {:.6g} s: no step there gives what it would do", *pole_at_));
         if (spike_at_)
             course_.warnings.push_back(fmt::format(
                 "has a value of its own at the one instant t = {:.9g} s, which acts on nothing", *spike_at_));
@@ -332,11 +336,16 @@ private:
     static constexpr std::size_t most_of_places = 256;  ///< switches of an expression that depends on the place
 
     void find_switches(const Vec2<double>& place) {
-        if (signals_.switchings.empty()) return;
         signals_.stand_at(place);
         const FirstTimes first(signals_, until_, n_first_, most_);
         for (const auto& switching : signals_.switchings)
             SwitchSearch(switching, course_.switches).along(first.times());
+        // those that no comparison gives away; the others are found again, between the same doubles
+        for (const FoundJump& jump :
+             JumpSearch(signals_.whole, until_, shortest_part * until_, quiet).along(first.times())) {
+            course_.switches.push_back({jump.before, jump.after, jump.after, false});
+            if (jump.is_pole && !pole_at_) pole_at_ = jump.before;
+        }
     }
 
     /// A front that runs over many nodes switches at each of them. Steps end where it comes and goes, and cannot miss
@@ -385,7 +394,8 @@ private:
     void note_jumps(const std::vector<std::vector<Sample>>& pieces, double largest) {
         for (std::size_t k = 0; k < course_.switches.size(); ++k) {
             AmplitudeCourse::Switch& one = course_.switches[k];
-            const double left = pieces[k].back().value, right = pieces[k + 1].front().value, at = value(one.time);
+            const double left = pieces[k].back().value, right = pieces[k + 1].front().value;
+            const double at = signals_.whole(one.time);  // no run evaluates it: it may have no value
             const double small = quiet * largest;
             if (std::abs(right - left) > small)
                 one.jumps = true;
@@ -430,7 +440,7 @@ private:
     std::size_t n_first_, most_;  ///< samples of a place: even ones, and all
     AmplitudeCourse course_;
     double largest_ = 0, fastest_ = 0;
-    std::optional<double> no_value_at_, spike_at_;
+    std::optional<double> no_value_at_, spike_at_, pole_at_;
 };
 
 /// Of an amplitude that is linear between switches that it knows itself.

@@ -3,8 +3,9 @@
 //
 // An error estimate sees what a step evaluates. In a solid at rest it sees nothing, steps grow, and a pulse between two
 // instants of evaluation is never noticed. So an expression is looked at before the run: where a comparison in it
-// changes its mind, where an abs, min, max, sign or rint bends or jumps, steps end; elsewhere it is sampled until
-// straight lines between samples follow it, and no step may be longer than such a line.
+// changes its mind, where an abs, min, max, sign or rint bends or jumps, and where samples find a jump of the whole of
+// it, steps end; elsewhere it is sampled until straight lines between samples follow it, and no step may be longer than
+// such a line.
 
 #include <cstddef>
 #include <memory>

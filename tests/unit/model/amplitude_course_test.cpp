@@ -72,6 +72,59 @@ TEST(AmplitudeCourse, WhatIsSmoothAndShort_BoundsStepsWhereItIs) {
     }
 }
 
+TEST(AmplitudeCourse, JumpWithoutAComparison_Switches) {
+    for (const char* text :
+         {"atan2(t - 1.013e-3, 0)", "atan(1/(t - 1.013e-3))", "1 - 2*atan(1/(t - 1.013e-3))/pi",
+          "sqrt((t - 1.013e-3)^2)/(t - 1.013e-3)", "(t - 1.013e-3 + abs(t - 1.013e-3))/(t - 1.013e-3)",
+          "exp(-t)*atan2(t - 1.013e-3, 0)", "sin(2*pi*1e4*t) + 0.3*atan2(t - 1.013e-3, 0)",
+          "exp(-exp(-(t - 1.013e-3)/1e-30))", "1/(1 + exp(-1/(t - 1.013e-3)))"}) {
+        const AmplitudeCourse jump = course(text, 5e-3);
+        ASSERT_THAT(times(jump), ElementsAre(1.013e-3)) << text;
+        EXPECT_TRUE(jump.switches[0].jumps) << text;
+        EXPECT_LE(jump.switches[0].after - jump.switches[0].before, 1e-18) << text << ": doubles side by side";
+        EXPECT_THAT(jump.warnings, IsEmpty()) << text;
+    }
+    const AmplitudeCourse pulse = course("atan2(t - 2e-3, 0) - atan2(t - 2.1e-3, 0)", 5e-3);
+    EXPECT_THAT(times(pulse), ElementsAre(2e-3, 2.1e-3));
+    // the fractional part of t/1 ms
+    const AmplitudeCourse saw = course("0.5 + atan(tan(pi*(t/1e-3 - 0.5)))/pi", 4.5e-3);
+    ASSERT_EQ(saw.switches.size(), 4u);
+    constexpr double of_the_pole = 1e-17;  // round-off of pi times 4
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(saw.switches[k].time, 1e-3 * static_cast<double>(k + 1), of_the_pole);
+        EXPECT_TRUE(saw.switches[k].jumps);
+    }
+}
+
+TEST(AmplitudeCourse, StepShorterThanAnyStep_IsAJump_ButAPeakIsNot) {
+    const AmplitudeCourse step = course("tanh((t - 2e-3)/1e-15)", 5e-3);
+    ASSERT_EQ(step.switches.size(), 1u);
+    EXPECT_TRUE(step.switches[0].jumps);
+    EXPECT_NEAR(step.switches[0].time, 2e-3, 1e-10 * 5e-3);
+    EXPECT_THAT(times(course("exp(-((t - 2e-3)/1e-15)^2)", 5e-3)), IsEmpty());
+}
+
+TEST(AmplitudeCourse, WhatIsContinuous_HasNoJumpHoweverSteep) {
+    for (const char* width : {"1e-4", "1e-6", "1e-8", "1e-10", "1e-11", "1e-12"})
+        for (const char* of_u : {"tanh({})", "exp(-({})^2)", "1/(1 + ({})^2)", "atan({})", "1/(1 + exp(-{}))"}) {
+            std::string text = of_u;
+            text.replace(text.find("{}"), 2, std::string("(t - 2e-3)/") + width);
+            EXPECT_THAT(times(course(text, 5e-3)), IsEmpty()) << text;
+        }
+    for (const char* text : {"sqrt(t)", "sqrt(sqrt((t - 2e-3)^2))", "((t - 2e-3)^2)^0.1", "sin(2*pi*1e9*t)",
+                             "exp(1e4*t)", "sin(t - 2e-3)/(t - 2e-3)", "tan(100*t)", "t^20", "ln(t + 1e-12)"})
+        EXPECT_THAT(times(course(text, 5e-3)), IsEmpty()) << text;
+}
+
+TEST(AmplitudeCourse, Pole_IsAJumpThatIsTold) {
+    const AmplitudeCourse tangent = course("tan(pi*t/4e-3)", 5e-3);
+    ASSERT_EQ(tangent.switches.size(), 1u);
+    EXPECT_TRUE(tangent.switches[0].jumps);
+    EXPECT_NEAR(tangent.switches[0].time, 2e-3, 1e-17);
+    EXPECT_THAT(tangent.warnings, ElementsAre(HasSubstr("grows without bound towards t = 0.002 s")));
+    EXPECT_TRUE(course("1/(t - 1e-3)", 5e-3).switches.at(0).jumps);
+}
+
 TEST(AmplitudeCourse, Harmonic_BoundsStepsToAQuarterOfItsPeriod_HoweverManyThereAre) {
     for (const char* text : {"sin(2*pi*50*t)", "exp(-t)*sin(2*pi*50*t)"}) {
         const AmplitudeCourse harmonic = course(text, 10);
@@ -96,6 +149,8 @@ TEST(AmplitudeCourse, AFront_SwitchesAtEachOfItsPlaces) {
     for (int i = 0; i < 3000; ++i) many.push_back({1e-4 * i, 0});
     const AmplitudeCourse dense = course_of(test::expression("t > 1e-4 + x/1000 ? 1 : 0"), 1e-3, many);
     EXPECT_LE(dense.switches.size(), 256u);
+    EXPECT_THAT(times(course_of(test::expression("atan2(t - x/1000, 0)"), 1e-3, places)),
+                ElementsAre(1e-4, 2e-4, 4e-4));
     EXPECT_EQ(dense.switches.front().time, 1e-4);
     EXPECT_DOUBLE_EQ(dense.switches.back().time, 1e-4 + 0.2999 / 1000);
     EXPECT_GT(dense.longest_step(2e-4), 1e-7) << "no step as short as a jump";
