@@ -392,13 +392,15 @@ int Comparison::carry_out_all() {
                                          run.energy_error, run.steps, run.force_evaluations, run.cost.cpu_time)
                            : run.status + ": " + run.message);
         if (decks_.options.compare->reference) std::cout << worth(check) << '\n';
+        if (check && !check->done())
+            fmt::print(stderr, "gneiss: warning: the reference could not be checked: {}: {}\n", check->setting,
+                       check->message);
         for (const ComparedRun& run : runs)
             if (run.done() && !run.warning.empty())
                 fmt::print(stderr, "gneiss: warning: {}: {}\n", run.title(), run.warning);
         fmt::print(stderr, "results: {}\n", out_.string());
     }
-    const bool all_done = std::ranges::all_of(runs, &ComparedRun::done) && (!check || check->done());
-    return all_done ? exit_code::done : exit_code::failed;
+    return std::ranges::all_of(runs, &ComparedRun::done) ? exit_code::done : exit_code::failed;
 }
 
 }  // namespace

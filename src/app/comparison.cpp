@@ -89,7 +89,7 @@ ComparedRun read_run(const fs::path& folder) {
     const auto summary = nlohmann::json::parse(read_file(summary_file));
     run.status = summary.at("status").get<std::string>();
     run.message = summary.value("message", "");
-    if (summary.contains("warnings")) run.warning = summary.at("warnings").at(0).get<std::string>();
+    run.warning = summary.value("balance_warning", "");
     const auto& work = summary.at("work");
     run.steps = work.at("steps");
     run.rejected = work.at("rejected");

@@ -68,6 +68,12 @@ void keep_finished_run(const fs::path& folder, const std::vector<std::string>& o
                         : ""));
 }
 
+/// A checkpoint.
+struct SavedState {
+    double t;  ///< s
+    fs::path file;
+};
+
 /// A run under way: what it computes, and what it writes.
 class Run {
 public:
@@ -77,14 +83,15 @@ public:
 private:
     void take_folder();
     void load_restart();
+    void find_last_sound();
     void open_results();
     EnergyLedger ledger(const State& state) const;
-    /// @param step  number of the step that the state belongs to
     /// Of the supports in state_, N; none where nobody asks for them.
     std::span<const double> reactions() {
         if (!reactions_file_) return {};
         return case_.integrator->reactions(*case_.system, state_);
     }
+    /// @param step  number of the step that the state belongs to
     void write_rows(const State& state, std::size_t step, double dt, std::span<const double> reactions);
     void judge_balance(double t, const EnergyLedger& energies);
     void begin();
@@ -101,6 +108,12 @@ private:
         frames_->write(*case_.system, state_, progress_.step);
         if (cracks_) cracks_->write(state_, progress_.step);
     }
+    fs::path checkpoint_file() const { return out_ / "checkpoint.h5"; }
+    fs::path last_sound_file() const { return out_ / "last_sound.h5"; }
+    bool balance_is_sound() const {
+        return !std::isfinite(progress_.balance.doubtful_since) && !std::isfinite(progress_.balance.gaining_since);
+    }
+    void keep_last_sound();
     void write_checkpoint();
     void write_summary_file(RunStatus status, const std::string& message = "");
     int end(RunStatus status, const std::string& message, int code);
@@ -129,11 +142,10 @@ private:
     double t_looked_at_ = 0;  ///< where the last step ended, s
     State within_;            ///< of rows within a step
     std::vector<double> reactions_within_;
-    bool integrator_stands_ = true;     ///< its memory belongs to state_
-    bool unbalanced_ = false;           ///< more energy has come from nothing than run.most_energy_gained lets pass
-    std::optional<double> last_sound_;  ///< time of the last checkpoint with a sound balance, s
-    bool last_sound_is_last_ = false;   ///< it is checkpoint.h5, not last_sound.h5
-    std::string balance_warning_;       ///< the last one of the balance; empty: there is none
+    bool integrator_stands_ = true;         ///< its memory belongs to state_
+    bool unbalanced_ = false;               ///< more energy has come from nothing than run.most_energy_gained lets pass
+    std::optional<SavedState> last_sound_;  ///< the last checkpoint with a sound balance
+    std::string balance_warning_;           ///< the last one of the balance; empty: there is none
     bool resumed_ = false, begun_ = false;
     std::string other_deck_;  ///< fingerprint of the deck that the restart's checkpoint is from, if it is another
 
@@ -175,12 +187,24 @@ void Run::load_restart() {
     other_deck_ = load_checkpoint(file, case_, state_, progress_);
     if (other_deck_ == fingerprint_) other_deck_.clear();
     resumed_ = true;
+    find_last_sound();
     const double t_end = case_.options.run.t_end;
     if (!(state_.t < t_end))
         throw InputError(file.string(),
                          fmt::format("stands at t = {:.9g} s, the deck ends at {:.9g} s: nothing is left "
                                      "to run",
                                      state_.t, t_end));
+}
+
+/// Where this part of the run goes astray, the last sound state is one that an earlier part has left.
+void Run::find_last_sound() {
+    const fs::path& file = *arguments_.restart;
+    std::error_code none;
+    const bool is_last = fs::equivalent(file, checkpoint_file(), none);
+    if (balance_is_sound())
+        last_sound_ = {state_.t, is_last ? checkpoint_file() : file};
+    else if (is_last && fs::exists(last_sound_file()))
+        last_sound_ = {Checkpoint::load(last_sound_file()).get<double>("state.t"), last_sound_file()};
 }
 
 void Run::take_folder() {
@@ -292,17 +316,22 @@ void Run::rows_within(const StepReport& step) {
     }
 }
 
+/// The next checkpoint does not replace it.
+void Run::keep_last_sound() {
+    if (!last_sound_ || last_sound_->file != checkpoint_file()) return;
+    fs::rename(checkpoint_file(), last_sound_file());
+    last_sound_->file = last_sound_file();
+}
+
 void Run::write_checkpoint() {
     // A checkpoint must not be ahead of the tables: after a crash, a restart could not bring the missing rows back.
     for_each_table([](CsvSeries& table) { table.flush(); });
     if (cracks_) cracks_->flush();
     if (states_) states_->save();
-    const fs::path file = out_ / "checkpoint.h5";
-    const bool sound = !std::isfinite(progress_.balance.doubtful_since);
-    if (!sound && last_sound_is_last_) fs::rename(file, out_ / "last_sound.h5");
+    const fs::path file = checkpoint_file();
+    if (!balance_is_sound()) keep_last_sound();
     save_checkpoint(file, fingerprint_, case_, state_, progress_);
-    last_sound_is_last_ = sound;
-    if (sound) last_sound_ = state_.t;
+    if (balance_is_sound()) last_sound_ = {state_.t, file};
 }
 
 /// The one way of a warning: to stderr, run.log and, once, summary.json.
@@ -358,6 +387,7 @@ void Run::write_summary_file(RunStatus status, const std::string& message) {
          seconds_since(started_), ledger(state_), BalanceWatch::largest_error(progress_.balance)});
     summary.status = status;
     summary.message = message;
+    summary.balance_warning = balance_warning_;
     summary.warnings = warnings_;
     if (!balance_warning_.empty()) summary.warnings.insert(summary.warnings.begin(), balance_warning_);
     summary.deck_fingerprint = fingerprint_;
@@ -387,9 +417,10 @@ int Run::end_unbalanced() {
     const double t = state_.t;
     std::string message = balance_watch_->text(t, progress_.balance);
     message += fmt::format("; `run.most_energy_gained` = {} ends the run; ", case_.options.run.most_energy_gained);
-    const std::string now = (out_ / "checkpoint.h5").string(), sound = (out_ / "last_sound.h5").string();
+    keep_last_sound();
+    const std::string now = checkpoint_file().string();
     message += last_sound_ ? fmt::format("the last state with a sound balance, t = {:.9g} s, is in {}, this one in {}",
-                                         *last_sound_, sound, now)
+                                         last_sound_->t, last_sound_->file.string(), now)
                            : fmt::format("no sound state was saved (`run.checkpoint`), this one is in {}", now);
     log_->error("{}", message);
     balance_warning_ = balance_watch_->text(t, progress_.balance);
@@ -401,8 +432,7 @@ int Run::end_failed(const std::exception& error) {
     std::string message = error.what();
     if (!looked_.overload.empty()) message += "; likely cause: " + looked_.overload;
     if (begun_)
-        message +=
-            fmt::format("; the last good state, t = {:.9g} s, is in {}", state_.t, (out_ / "checkpoint.h5").string());
+        message += fmt::format("; the last good state, t = {:.9g} s, is in {}", state_.t, checkpoint_file().string());
     log_->error("{}", message);
     if (begun_) {
         // The failed step has left the integrator between two states: let it start from the last good one, so that the
@@ -448,7 +478,7 @@ int Run::march() {
         if (unbalanced_) return end_unbalanced();
         if (outcome == MarchOutcome::finished) return end(RunStatus::done, "", exit_code::done);
         return end(RunStatus::interrupted,
-                   fmt::format("stopped by a signal; go on with --restart {}", (out_ / "checkpoint.h5").string()),
+                   fmt::format("stopped by a signal; go on with --restart {}", checkpoint_file().string()),
                    stop_request_.exit_code());
     } catch (const RecoverableError& error) {
         return end_failed(error);

@@ -43,6 +43,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     ordered_json json;
     json["status"] = name_of(summary.status);
     if (!summary.message.empty()) json["message"] = summary.message;
+    if (!summary.balance_warning.empty()) json["balance_warning"] = summary.balance_warning;
     if (!summary.warnings.empty()) json["warnings"] = summary.warnings;
     json["title"] = summary.title;
     json["version"] = version_string();

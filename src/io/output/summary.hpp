@@ -22,10 +22,11 @@ struct RunSummary {
     std::string title = {};                                            ///< the deck's
     std::string deck_fingerprint = {};                                 ///< fingerprint_text() of the deck as it was run
     nlohmann::ordered_json groups = nlohmann::ordered_json::object();  ///< counts, timings, energies, metrics, …
-    std::vector<std::string> warnings = {};                            ///< in the order in which they were given
+    std::string balance_warning = {};                                  ///< that of the balance; left out if empty
+    std::vector<std::string> warnings = {};                            ///< all, in the order in which they were given
 };
 
-/// What summary.json holds: status, message, warnings (the last two if there are any), title, version,
+/// What summary.json holds: status, message, balance_warning, warnings (these three if there are any), title, version,
 /// deck_fingerprint, then the groups. JSON has no nan and no infinity: such a number becomes null, and "not_finite"
 /// lists where it stood and what it was: "/metrics/peak: nan".
 nlohmann::ordered_json to_json(const RunSummary& summary);

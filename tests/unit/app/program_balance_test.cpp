@@ -179,7 +179,8 @@ TEST_F(ProgramBalance, EnergyMadeFromNothing_EndsTheRun_AndSaysWhy) {
     EXPECT_THAT(contents("out/run.log"), said);
     const nlohmann::json found = summary("out");
     EXPECT_EQ(found["status"], "failed");
-    EXPECT_THAT(found["warnings"][0].get<std::string>(), said);
+    EXPECT_THAT(found["balance_warning"].get<std::string>(), said);
+    EXPECT_EQ(found["warnings"][0], found["balance_warning"]);
     EXPECT_THAT(found["message"].get<std::string>(),
                 AllOf(HasSubstr("`run.most_energy_gained` = 0.5 ends the run"), HasSubstr("no sound state was saved")));
     EXPECT_GE(found["balance_error"], 0.5);
@@ -203,6 +204,33 @@ TEST_F(ProgramBalance, EnergyMadeFromNothing_WithCheckpoints_TheLastSoundOneStay
     const Ended resumed = run(set, {"--restart", "out/last_sound.h5"});
     EXPECT_EQ(resumed.code, 0) << resumed.err;
     EXPECT_EQ(summary("out")["status"], "done");
+}
+
+TEST_F(ProgramBalance, EnergyMadeFromNothing_AfterARestart_TheSoundCheckpointBeforeItStays) {
+    put("case.toml", vibration_deck);
+    std::vector<std::string> begun = unstable, gone_on = unstable;
+    begun.push_back("run.t_end=4e-3");
+    gone_on.push_back("run.checkpoint=0.2");
+    const std::string in = "the last state with a sound balance, t = 0.004 s, is in ";
+    // in the folder of the first part its checkpoint gives way to the next one
+    ASSERT_EQ(run(begun).code, 0);
+    ASSERT_LT(summary("out")["balance_error"], 0.01);
+    ASSERT_EQ(run(gone_on, {"--restart", "out/checkpoint.h5"}).code, 3);
+    EXPECT_THAT(summary("out")["message"].get<std::string>(), HasSubstr(in + "out/last_sound.h5"));
+    // and is found again by a part that begins where nothing is sound any more
+    EXPECT_EQ(run(gone_on, {"--restart", "out/checkpoint.h5"}).code, 3);
+    EXPECT_THAT(summary("out")["message"].get<std::string>(), HasSubstr(in + "out/last_sound.h5"));
+    const std::vector<std::string> finer{"integrator.type=cvode", "integrator.method=adams", "integrator.rtol=1e-8"};
+    EXPECT_EQ(run(finer, {"--restart", "out/last_sound.h5"}).code, 0);
+    // in another folder it stays where it is
+    ASSERT_EQ(run(begun).code, 0);
+    const std::string first = contents("out/checkpoint.h5");
+    std::vector<std::string> elsewhere{"run", "case.toml", "--out", "other", "--restart", "out/checkpoint.h5", "--set"};
+    elsewhere.insert(elsewhere.end(), gone_on.begin(), gone_on.end());
+    ASSERT_EQ(gneiss(elsewhere).code, 3);
+    EXPECT_THAT(summary("other")["message"].get<std::string>(), HasSubstr(in + "out/checkpoint.h5"));
+    EXPECT_EQ(contents("out/checkpoint.h5"), first);
+    EXPECT_FALSE(exists("other/last_sound.h5"));
 }
 
 TEST_F(ProgramBalance, EnergyMadeFromNothing_KeyAtZero_GoesOnWithAWarning) {
@@ -250,6 +278,35 @@ integrator = { type = "bathe", dt = 1e-3, rho_inf = 0 }
     const auto runs = nlohmann::json::parse(contents("results/case-compare/compare.json")).at("runs");
     EXPECT_FALSE(runs[0].contains("warning"));
     EXPECT_THAT(runs[1]["warning"].get<std::string>(), HasSubstr("have got lost"));
+    // what the program says of other things is not of the balance: light, and as stiff for its mass
+    ASSERT_EQ(gneiss({"compare", "case.toml", "--threads", "1", "--set", "run.t_end=0.1", "material.0.density=50",
+                      "material.0.constants.E=2.5e7"})
+                  .code,
+              0);
+    const auto light = nlohmann::json::parse(contents("results/case-compare/compare.json")).at("runs");
+    EXPECT_THAT(summary(light[0]["folder"].get<std::string>())["warnings"].dump(), HasSubstr("50 kg/m3"));
+    EXPECT_FALSE(light[0].contains("warning"));
+    EXPECT_THAT(light[1]["warning"].get<std::string>(), HasSubstr("have got lost"));
+}
+
+TEST_F(ProgramBalance, Compare_OnlyTheCheckOfTheReferenceFails_EveryRowIsDone) {
+    put("case.toml", vibration_deck + R"toml(
+[compare]
+samples = 5
+reference = { type = "cvode", method = "adams", rtol = 1e-4 }
+[[compare.scheme]]
+name = "leapfrog"
+integrator = { type = "central_difference" }
+)toml");
+    // the check, with rtol = 1e-3, makes more energy from nothing than the key lets pass
+    const Ended ended =
+        gneiss({"compare", "case.toml", "--threads", "1", "--set", "run.t_end=0.05", "run.most_energy_gained=2e-2"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("gneiss: warning: the reference could not be checked: rtol = 0.001: "),
+                                 HasSubstr("have come from nothing")));
+    const auto table = nlohmann::json::parse(contents("results/case-compare/compare.json"));
+    EXPECT_EQ(table["reference_check"]["status"], "failed");
+    for (const auto& row : table["runs"]) EXPECT_EQ(row["status"], "done");
 }
 
 }  // namespace
