@@ -119,6 +119,14 @@ std::size_t ProblemScales::start(const SemiDiscrete& system, const State& state,
         largest = std::max(largest, velocity_of_loads(system, state, t, state.last_event, omega, largest, velocity));
         ++n_evaluations;
     }
+    // Stress at rest leaves forces of round-off at nodes where it balances: n eps sigma of each element, which within
+    // 1/omega move a node by less than n eps sigma/E of an edge. No deformation gradient, 1 + du/dx, tells such a
+    // displacement from none, and no tolerance could be measured against it.
+    constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+    if (largest < round_off * system.smallest_length() * omega) {
+        largest = 0;
+        std::ranges::fill(velocity, 0.0);
+    }
     largest = std::max({largest, largest_magnitude(state.v), largest_magnitude(supports)});
     // while nothing moves: a part of what is to come, so that neither a load that has hardly begun nor a scale out of
     // nowhere says what is small
@@ -127,8 +135,8 @@ std::size_t ProblemScales::start(const SemiDiscrete& system, const State& state,
     n_evaluations += to_come.n_evaluations;
     largest = std::max(largest, part * to_come.velocity);
     double displacement = std::max(largest / omega, part * to_come.displacement);
-    if (largest == 0 && displacement == 0) {  // nothing ever moves: any scale does
-        displacement = 1e-6 * system.smallest_length();
+    if (largest == 0 && displacement == 0) {  // nothing ever moves: any scale does of which a small part is seen
+        displacement = 1e-9 * system.smallest_length();
         largest = displacement * omega;
     }
     grow(1, largest);
