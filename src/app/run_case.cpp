@@ -1,7 +1,6 @@
 #include "app/run_case.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +11,7 @@
 #include "app/checkpoints.hpp"
 #include "app/crack_frames.hpp"
 #include "app/field_frames.hpp"
+#include "app/finished_run.hpp"
 #include "app/make_integrator.hpp"
 #include "app/plausibility.hpp"
 #include "app/run_summary.hpp"
@@ -48,24 +48,6 @@ std::string deck_text(const RunArguments& arguments) {
     if (!arguments.set.empty() && !text.ends_with('\n')) text += '\n';
     for (const std::string& set : arguments.set) text += "# --set " + set + '\n';
     return text;
-}
-
-/// @param own  fingerprints of the decks whose results may go
-/// @throws InputError if the folder holds a finished run of any other deck
-void keep_finished_run(const fs::path& folder, const std::vector<std::string>& own) {
-    const fs::path file = folder / "summary.json";
-    if (!fs::exists(file)) return;
-    const auto summary = nlohmann::json::parse(read_file(file), nullptr, false);
-    if (!summary.is_object() || summary.value("status", "") != name_of(RunStatus::done)) return;
-    if (std::ranges::find(own, summary.value("deck_fingerprint", "")) != own.end()) return;
-    throw InputError(
-        folder.string(),
-        fmt::format("holds a finished run of another deck, or of this one before it was changed ({}{}): "
-                    "--overwrite replaces it, --out takes another folder",
-                    summary.value("deck", "unknown"),
-                    summary.contains("overrides")
-                        ? fmt::format(" --set {}", fmt::join(summary["overrides"].get<std::vector<std::string>>(), " "))
-                        : ""));
 }
 
 /// A checkpoint.
