@@ -135,7 +135,8 @@ std::size_t ProblemScales::start(const SemiDiscrete& system, const State& state,
     n_evaluations += to_come.n_evaluations;
     largest = std::max(largest, part * to_come.velocity);
     double displacement = std::max(largest / omega, part * to_come.displacement);
-    if (largest == 0 && displacement == 0) {  // nothing ever moves: any scale does of which a small part is seen
+    if (is_new && largest == 0 && displacement == 0) {
+        // nothing ever moves: any scale does of which a small part is seen
         displacement = 1e-9 * system.smallest_length();
         largest = displacement * omega;
     }
