@@ -63,6 +63,7 @@ def integrator(problem: Problem, scheme: Scheme, quick: bool) -> Deck:
 
 def deck(problem: Problem, profile: str) -> Deck:
     result = dict(problem.deck)
+    result["run"] = problem.deck["run"] | {"most_energy_gained": 0.0}  # how much energy a scheme makes is a result
     result["output"] = {"history": problem.deck["run"]["t_end"] / HISTORY_ROWS, "rows": "steps"}
     tight, witness = TIGHT | {"dt": problem.interval / (8 * problem.resolved)}, WITNESS
     if not problem.smooth:
@@ -102,7 +103,7 @@ def flutter_deck(volumetric: str, profile: str) -> Deck:
                       "constants": {"E": 1e9, "nu": FLUTTER_RATIO}}],
         "boundary": [{"on": on, "type": "fixed"} for on in ("left", "bottom")],
         "initial": [{"velocity": [f"{FLUTTER_SPEED}*sin(7*x + 3*y)*x*y", f"{FLUTTER_SPEED}*cos(5*x - 4*y)*x*y"]}],
-        "run": {"t_end": FLUTTER_TIME},
+        "run": {"t_end": FLUTTER_TIME, "most_energy_gained": 0.0},
         "output": {"history": FLUTTER_TIME / 1000, "rows": "steps"},
         "compare": {"samples": 1, "reference": TIGHT | {"dt": FLUTTER_TIME / (2 * FLUTTER_STEPS)}, "scheme": schemes},
     }
