@@ -48,8 +48,8 @@ private:
     void destroy() override { memory_.reset(); }
     void restart(double t) override;
     int step(double dt, double t_stop, double& t) override;
-    int dense(double t, N_Vector at) override;
     /// Tables of order 5 evaluate once, those of higher orders four times.
+    int dense(double t, N_Vector at) override;
     double last_step() override;
     std::size_t failed_trials() override;
     std::string flag_name(int flag) override;

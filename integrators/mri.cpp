@@ -134,9 +134,8 @@ std::string Mri::doubt(const FrequencyBound& bound) const {
     const double slow = std::sqrt(std::max(0.0, bound.omega * bound.omega - bound.of_bonds));
     if (options_.dt * slow <= table_.limit) return {};
     return fmt::format(
-        "integrator.dt = {:.4g} s: `{}` is stable up to {:.4g} s for all but contact and joints here; above, energy "
-        "may "
-        "come from nothing",
+        "integrator.dt = {:.4g} s: `{}` is stable up to {:.4g} s for all but contact and joints here; above, "
+        "energy may come from nothing",
         options_.dt, table_.name, table_.limit / slow);
 }
 

@@ -23,8 +23,7 @@ struct MultirateTable {
     const char* name;
     int id;  ///< SUNDIALS' number
     int order;
-    double
-        limit;  ///< of omega dt, omega the largest of the slow part, without damping; measured: integrators/README.md
+    double limit;  ///< of omega dt of the slow part, without damping; measured: integrators/README.md
 };
 
 std::span<const MultirateTable> multirate_tables();

@@ -100,11 +100,10 @@ std::string BalanceWatch::cause(bool gained) const {
         return gained ? "bdf of order 3 to 5 amplifies undamped vibration; a smaller `rtol`, `max_order = 2`, or a "
                         "scheme for vibration"
                       : "bdf damps what its steps do not resolve; a smaller `rtol`, or a scheme for vibration";
-    if (is({"cvode", "arkode"}) && (scheme.type == "cvode" || scheme.dt == 0) && !gained)
-        return "the scheme damps what its steps do not resolve, or has not yet seen it; a smaller `rtol`";
     if (is({"cvode", "arkode"}) && (scheme.type == "cvode" || scheme.dt == 0))
-        return "steps at the limit of stability, which errors within `rtol` do not show; a smaller `rtol`, or a scheme "
-               "for vibration";
+        return gained ? "steps at the limit of stability, which errors within `rtol` do not show; a smaller `rtol`, or "
+                        "a scheme for vibration"
+                      : "the scheme damps what its steps do not resolve, or has not yet seen it; a smaller `rtol`";
     if (is({"arkode", "mri"})) return "steps too long; a smaller `dt`";
     if (is({"generalized_alpha", "newmark", "hht_alpha", "bathe"}))
         return gained ? "steps too long for contact, cracks or large rotations; a smaller `dt` or `rtol`"

@@ -337,8 +337,7 @@ void Inspection::stress_in_situ() {
     if (worst < out_of_balance * stress && in_all > 3 * out_of_balance * stress) {
         warn(
             "in_situ_stress of up to {:.4g} Pa is out of balance at the start: forces of {:.3g} N in x and {:.3g} N in "
-            "y in all have "
-            "nothing to match them: is a weight missing?",
+            "y in all have nothing to match them: is a weight missing?",
             stress, sum.x, sum.y);
         return;
     }
@@ -401,8 +400,7 @@ void Inspection::output() {
         options.output.history > 0 && !options.output.rows_at_steps && rows > many_rows)
         warn(
             "output.history: {:.2g} rows, each at its own time, make as many steps; `rows = \"steps\"` has at most a "
-            "row for "
-            "a step",
+            "row for a step",
             rows);
 
     // columns of field_frames, before they are compressed; a state has displacement, velocity and stress

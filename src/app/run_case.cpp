@@ -155,8 +155,10 @@ Run::Run(const RunArguments& arguments) : arguments_(arguments) {
     schedule_.emplace(case_.options, case_.integrator->interpolates());
     balance_watch_.emplace(case_.options, case_.integrator->is_static());
     state_ = case_.system->initial_state();
-    progress_.balance.largest_entry = least_energy(*case_.system, state_, largest_coordinate(*case_.mesh));
-    if (arguments.restart) load_restart();
+    if (arguments.restart)
+        load_restart();
+    else
+        progress_.balance.largest_entry = least_energy(*case_.system, state_, largest_coordinate(*case_.mesh));
     open_results();
     if (!too_many_threads.empty()) warn(too_many_threads);
     first_step_ = progress_.step;

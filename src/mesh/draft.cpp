@@ -19,6 +19,12 @@ std::int64_t next_label(const std::vector<std::int64_t>& labels) {
     return labels.empty() ? 1 : *std::max_element(labels.begin(), labels.end()) + 1;
 }
 
+/// Moves the mid-side nodes of an element halfway between its corners.
+void straighten(MeshDraft& draft, const std::array<std::int32_t, 6>& element) {
+    for (const auto& [from, mid, to] : composite_sides)
+        draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
+}
+
 }  // namespace
 
 std::int32_t MeshDraft::add_node(double x, double y) {
@@ -65,9 +71,7 @@ void add_mid_sides(MeshDraft& draft) {
 }
 
 void straighten_sides(MeshDraft& draft) {
-    for (const auto& element : draft.elements)
-        for (const auto& [from, mid, to] : composite_sides)
-            draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
+    for (const auto& element : draft.elements) straighten(draft, element);
 }
 
 std::vector<std::int64_t> straighten_folded(MeshDraft& draft) {
@@ -87,9 +91,8 @@ std::vector<std::int64_t> straighten_folded(MeshDraft& draft) {
         for (std::size_t e = 0; e < draft.elements.size(); ++e) {
             const auto& element = draft.elements[e];
             if (!corners_run_well(element) || !is_folded(element)) continue;
-            for (const auto& [from, mid, to] : composite_sides)
-                draft.nodes[element[mid]] = midpoint(draft.nodes[element[from]], draft.nodes[element[to]]);
-            again = !is_folded(element);
+            straighten(draft, element);
+            again = again || !is_folded(element);  // one without an area to speak of may stay so, by round-off
             labels.push_back(draft.element_labels[e]);
         }
     }

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -91,6 +92,7 @@ public:
     ~SignalNote() {
         for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &former_[i], nullptr);
     }
+    static bool is_noted(int signal) { return std::ranges::find(signals, signal) != signals.end(); }
     SignalNote(const SignalNote&) = delete;
     SignalNote& operator=(const SignalNote&) = delete;
 
@@ -208,8 +210,7 @@ MeshDraft read_gmsh_apart(const fs::path& file, const std::map<std::string, doub
     const int status = child.wait();
     if (process.ended) process.ended();
     if (signal_that_came != 0) throw MeshInterrupted(signal_that_came);
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
-        throw MeshInterrupted(WTERMSIG(status));
+    if (WIFSIGNALED(status) && SignalNote::is_noted(WTERMSIG(status))) throw MeshInterrupted(WTERMSIG(status));
     if (status != 0) throw InputError(file.string(), how_it_ended(status, child.last_lines()));
     if (!fs::exists(result))
         throw InputError(file.string(), "Gmsh ended at work on it, before there was a mesh: by a statement Exit?");

@@ -1,6 +1,7 @@
 // [fracture], [[crack]], [[interface]], and strengths.
 
-#include <algorithm>
+#include <set>
+#include <string>
 
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
@@ -42,10 +43,10 @@ bool read_regions_between(const Value& value, TableReader&, InterfaceOptions& ou
         value.problem("given a single region, must be two or more");
         return false;
     }
-    for (std::size_t i = 1; i < out.between.size(); ++i)
-        if (std::find(out.between.begin(), out.between.begin() + static_cast<std::ptrdiff_t>(i), out.between[i]) !=
-            out.between.begin() + static_cast<std::ptrdiff_t>(i)) {
-            value.problem(fmt::format("given \"{}\" twice, must be different regions", out.between[i]));
+    std::set<std::string> seen;
+    for (const std::string& region : out.between)
+        if (!seen.insert(region).second) {
+            value.problem(fmt::format("given \"{}\" twice, must be different regions", region));
             return false;
         }
     return true;
