@@ -11,12 +11,13 @@ namespace gneiss {
 inline constexpr std::ptrdiff_t parallel_range = 4096;
 
 /// body(first, last) on consecutive ranges that together make up [0, n).
+/// @param range  iterations of each, shorter where one of them takes long
 template <class Body>
-void parallel_ranges(std::size_t n, Body body) {
+void parallel_ranges(std::size_t n, Body body, std::ptrdiff_t range = parallel_range) {
     const auto end = static_cast<std::ptrdiff_t>(n);
-#pragma omp parallel for schedule(static) if (end > parallel_range)  // no threads for a single range
-    for (std::ptrdiff_t first = 0; first < end; first += parallel_range)
-        body(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + parallel_range, end)));
+#pragma omp parallel for schedule(static) if (end > range)  // no threads for a single range
+    for (std::ptrdiff_t first = 0; first < end; first += range)
+        body(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + range, end)));
 }
 
 /// The sum of range(first, last) over the same ranges, added in ascending order.

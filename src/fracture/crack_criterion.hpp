@@ -52,6 +52,8 @@ public:
     /// Mean of the stresses on both sides of a sub-edge, xx, yy, xy, Pa; of the state looked at last.
     std::array<double, 3> mean_stress(std::int32_t side, std::size_t part) { return response_.mean_stress(side, part); }
     void look_at(const State& state) { response_.look_at(state); }
+    /// Sides have opened at nodes of these elements.
+    virtual void follow(std::span<const std::int32_t> elements) { (void)elements; }
 
 protected:
     virtual CrackOpenings find(const State& state) = 0;

@@ -118,6 +118,13 @@ void Cracking::part(const Change& change, State& state) {
         }
     std::ranges::sort(elements);
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    if (criterion_) {
+        criterion_->follow(elements);
+        for (const SideNode& end : change.opened) {
+            const InnerSide& side = parts_.inner.sides()[index(end.side)];
+            criterion_->follow(std::array{side.left.element, side.right.element});
+        }
+    }
     std::optional<SolidSystem::Surroundings> surroundings;
     if (parts_.surroundings && named(copies)) surroundings = parts_.surroundings(parts_.mesh);
     parts_.solid.follow({parts_.mesh, copies, elements, opened, change.failed}, std::move(surroundings), state);

@@ -1,5 +1,9 @@
 #include "fracture/element_response.hpp"
 
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
 namespace gneiss {
 namespace {
 
@@ -14,37 +18,53 @@ std::size_t sub_triangle_at(ElementKind kind, int side, std::size_t part) {
 }  // namespace
 
 void ElementResponse::look_at(const State& state) {
+    if (first_pack_.empty()) lay_out();
     state_ = &state;
     ++look_;
 }
 
-std::size_t ElementResponse::slot_of(std::int32_t element) {
-    const std::size_t stresses = static_cast<std::size_t>(elements_.n_sub_triangles()) * 3 * pack_width;
-    const std::size_t forces = static_cast<std::size_t>(mesh_.nodes_per_element()) * 2 * pack_width;
-    if (first_pack_.empty()) {
-        first_pack_.push_back(0);
-        for (const auto& block : elements_.blocks()) first_pack_.push_back(first_pack_.back() + block->n_packs());
-        seen_.assign(first_pack_.back(), -1);
-        stresses_.resize(first_pack_.back() * stresses);
-        forces_.resize(first_pack_.back() * forces);
-    }
-    const ElementForces::Place& place = elements_.place(element);
-    const std::size_t pack = index(place.local) / pack_width, slot = first_pack_[index(place.block)] + pack;
-    if (seen_[slot] != look_) {
-        seen_[slot] = look_;
-        elements_.blocks()[index(place.block)]->pack_response(
-            pack, elements_.evaluation(index(place.block), *state_, Trial::of(*state_)),
-            stresses_.data() + slot * stresses, forces_.data() + slot * forces);
-    }
-    return slot;
+void ElementResponse::lay_out() {
+    n_sub_ = static_cast<std::size_t>(elements_.n_sub_triangles());
+    n_nodes_ = static_cast<std::size_t>(mesh_.nodes_per_element());
+    first_pack_.push_back(0);
+    for (const auto& block : elements_.blocks()) first_pack_.push_back(first_pack_.back() + block->n_packs());
+    const std::size_t n_packs = first_pack_.back();
+    seen_.assign(n_packs, -1);
+    stresses_.resize(n_packs * n_sub_ * 3 * pack_width);
+    forces_.resize(n_packs * n_nodes_ * 2 * pack_width);
+}
+
+void ElementResponse::find(std::size_t pack) {
+    const std::size_t block =
+        static_cast<std::size_t>(std::ranges::upper_bound(first_pack_, pack) - first_pack_.begin()) - 1;
+    elements_.blocks()[block]->pack_response(
+        pack - first_pack_[block], elements_.evaluation(block, *state_, Trial::of(*state_)),
+        stresses_.data() + pack * n_sub_ * 3 * pack_width, forces_.data() + pack * n_nodes_ * 2 * pack_width);
+    seen_[pack] = look_;
+}
+
+void ElementResponse::find(std::span<const std::size_t> packs) {
+    constexpr std::ptrdiff_t range = 64;  // some microseconds
+    parallel_ranges(
+        packs.size(),
+        [&](std::size_t first, std::size_t last) {
+            for (const std::size_t pack : packs.subspan(first, last - first)) find(pack);
+        },
+        range);
+}
+
+std::size_t ElementResponse::stress_place(const ElementSide& side, std::size_t part) const {
+    const std::size_t sub = pack_of(side.element) * n_sub_ + sub_triangle_at(mesh_.kind, side.side, part);
+    return 3 * sub * pack_width + lane_of(side.element);
+}
+
+std::size_t ElementResponse::force_place(std::int32_t element, int node) const {
+    return 2 * (pack_of(element) * n_nodes_ + index(node)) * pack_width + lane_of(element);
 }
 
 std::array<double, 3> ElementResponse::stress(const ElementSide& side, std::size_t part) {
-    const std::size_t n_sub = static_cast<std::size_t>(elements_.n_sub_triangles());
-    const std::size_t sub = slot_of(side.element) * n_sub + sub_triangle_at(mesh_.kind, side.side, part);
-    const double* xx =
-        stresses_.data() + 3 * sub * pack_width + index(elements_.place(side.element).local) % pack_width;
-    return {xx[0], xx[pack_width], xx[2 * pack_width]};
+    require(side.element);
+    return stress_at(stress_place(side, part));
 }
 
 std::array<double, 3> ElementResponse::mean_stress(std::int32_t side, std::size_t part) {
@@ -52,12 +72,6 @@ std::array<double, 3> ElementResponse::mean_stress(std::int32_t side, std::size_
     const std::size_t n_parts = side_nodes(mesh_.kind, 0).size() - 1;
     const std::array<double, 3> left = stress(inner.left, part), right = stress(inner.right, n_parts - 1 - part);
     return {0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1]), 0.5 * (left[2] + right[2])};
-}
-
-Vec2<double> ElementResponse::force(std::int32_t element, int node) {
-    const std::size_t at = slot_of(element) * static_cast<std::size_t>(mesh_.nodes_per_element()) + index(node);
-    const double* x = forces_.data() + 2 * at * pack_width + index(elements_.place(element).local) % pack_width;
-    return {x[0], x[pack_width]};
 }
 
 double ElementResponse::mass(std::int32_t element, int node) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/inner_sides.hpp"
@@ -25,21 +26,44 @@ public:
     /// Mean of both sides of an inner side.
     /// @param part  in the walk of its left element
     std::array<double, 3> mean_stress(std::int32_t side, std::size_t part);
-    /// Force of an element on one of its nodes, viscous part included, N.
-    Vec2<double> force(std::int32_t element, int node);
     /// An element's share of the mass at one of its nodes, kg.
     double mass(std::int32_t element, int node);
 
+    // The same for who asks for many, step by step: places once, their packs all at once, then what stands there.
+
+    /// Number of an element's pack. It and the places below stay what they are.
+    std::size_t pack_of(std::int32_t element) const {
+        const ElementForces::Place& place = elements_.place(element);
+        return first_pack_[static_cast<std::size_t>(place.block)] + static_cast<std::size_t>(place.local) / pack_width;
+    }
+    std::size_t stress_place(const ElementSide& side, std::size_t part) const;
+    std::size_t force_place(std::int32_t element, int node) const;
+    /// Finds what stands in these packs, in parallel. @param packs  each once
+    void find(std::span<const std::size_t> packs);
+    std::array<double, 3> stress_at(std::size_t place) const {
+        return {stresses_[place], stresses_[place + pack_width], stresses_[place + 2 * pack_width]};
+    }
+    /// Of an element on one of its nodes, viscous part included, N.
+    Vec2<double> force_at(std::size_t place) const { return {forces_[place], forces_[place + pack_width]}; }
+
 private:
-    /// Where the answers of an element's pack stand, which is asked now unless it was before.
-    std::size_t slot_of(std::int32_t element);
+    std::size_t lane_of(std::int32_t element) const {
+        return static_cast<std::size_t>(elements_.place(element).local) % pack_width;
+    }
+    void lay_out();
+    void find(std::size_t pack);
+    /// Finds an element's pack unless that was done before.
+    void require(std::int32_t element) {
+        if (const std::size_t pack = pack_of(element); seen_[pack] != look_) find(pack);
+    }
 
     const Mesh& mesh_;
     const InnerSides& inner_;
     const ElementForces& elements_;
     const State* state_ = nullptr;
     std::int64_t look_ = 0;
-    std::vector<std::size_t> first_pack_;  ///< of each block
+    std::size_t n_sub_ = 0, n_nodes_ = 0;  ///< sub-triangles, nodes of an element
+    std::vector<std::size_t> first_pack_;  ///< of each block, and the number of packs; empty: nothing is laid out yet
     std::vector<std::int64_t> seen_;       ///< look of each pack's answers
     std::vector<double> stresses_;         ///< shape (packs, sub-triangles, 3, lanes)
     std::vector<double> forces_;           ///< shape (packs, nodes, 2, lanes)

@@ -84,7 +84,7 @@ public:
                      std::span<double> history) const override;
     std::vector<WaitingEnd> waiting(const State& accepted, std::span<const double> history) const override;
     Start wake(const WaitingEnd& end, double normal, double shear, std::span<double> history) const override;
-    void corner_forces(const State& accepted, std::span<const double> history,
+    void corner_forces(const State& accepted, std::span<const double> history, std::span<const std::uint8_t> wanted,
                        std::vector<CornerForce>& forces) const override;
     std::vector<WaitingEnd> ends() const override;
     void preload(const WaitingEnd& end, double normal, double shear) override;

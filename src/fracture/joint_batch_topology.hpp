@@ -280,20 +280,30 @@ auto JointBatch<Law, extrinsic>::wake(const WaitingEnd& end, double normal, doub
 
 template <class Law, bool extrinsic>
 void JointBatch<Law, extrinsic>::corner_forces(const State& accepted, std::span<const double> history,
+                                               std::span<const std::uint8_t> wanted,
                                                std::vector<CornerForce>& forces) const {
     if constexpr (extrinsic) {
+        const auto wants = [&](std::size_t joint, std::size_t k) {
+            return wanted[static_cast<std::size_t>(node(joint, k))] != 0;
+        };
         const auto visit = [&](std::size_t pack, const Nodal& f) {
-            for (std::size_t lane = 0; lane < pack_width && pack * pack_width + lane < n_joints_; ++lane) {
-                const std::size_t joint = pack * pack_width + lane;
+            for (std::size_t joint = pack * pack_width; joint < std::min((pack + 1) * pack_width, n_joints_); ++joint) {
                 if (history[entry(joint, failure_row)] < 0) continue;
+                const std::size_t lane = joint % pack_width;
                 const InnerSide& side = inner_->sides()[static_cast<std::size_t>(sides_[joint])];
                 for (std::size_t k = 0; k < joint_nodes; ++k)
-                    forces.push_back({k < joint_points ? side.left.element : side.right.element,
-                                      node(joint, k),
-                                      {f[k].x.get(lane), f[k].y.get(lane)}});
+                    if (wants(joint, k))
+                        forces.push_back({k < joint_points ? side.left.element : side.right.element,
+                                          node(joint, k),
+                                          {f[k].x.get(lane), f[k].y.get(lane)}});
             }
         };
-        for_each_pack(0, n_packs(), Trial::of(accepted), history, {}, visit);
+        for (std::size_t joint = 0; joint < n_joints_; ++joint)
+            if (wants(joint, 0) || wants(joint, 1) || wants(joint, 2) || wants(joint, 3)) {
+                const std::size_t pack = joint / pack_width;
+                for_each_pack(pack, pack + 1, Trial::of(accepted), history, {}, visit);
+                joint = (pack + 1) * pack_width - 1;
+            }
     }
 }
 

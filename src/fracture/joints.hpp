@@ -80,8 +80,9 @@ public:
                              std::span<double> history) const = 0;
 
     /// Appends the forces of extrinsic joints on the elements at both sides.
+    /// @param wanted  per node, not zero: at this one
     virtual void corner_forces(const State& accepted, std::span<const double> history,
-                               std::vector<CornerForce>& forces) const = 0;
+                               std::span<const std::uint8_t> wanted, std::vector<CornerForce>& forces) const = 0;
 
     /// An end of a joint: one that waits for a traction while its nodes have parted, or any.
     struct WaitingEnd {

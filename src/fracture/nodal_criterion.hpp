@@ -2,7 +2,7 @@
 // Nodes come apart where no tractions inside the strength envelope hold their elements together any more.
 
 #include "fracture/crack_criterion.hpp"
-#include "fracture/fan.hpp"
+#include "fracture/fan_table.hpp"
 #include "fracture/node_rupture.hpp"
 
 namespace gneiss {
@@ -15,26 +15,38 @@ namespace gneiss {
 /// shared by mass, and cancel: contact hands its force to the copies of a node by their masses as well.
 class NodalCriterion final : public CrackCriterion {
 public:
-    explicit NodalCriterion(Parts parts) : CrackCriterion(parts) {}
+    explicit NodalCriterion(Parts parts)
+        : CrackCriterion(parts), fans_(parts.mesh, parts.inner, parts.properties, parts.thickness) {}
+    void follow(std::span<const std::int32_t> elements) override { fans_.forget(elements); }
 
 private:
+    /// What is found in a range of candidates, and the scratch to find it.
+    struct Found {
+        CrackOpenings openings;
+        double utilisation;
+        std::vector<FanCorner> corners;
+        std::vector<FanInterface> interfaces;
+        NodeRupture rupture;
+    };
     CrackOpenings find(const State& state) override;
     double find_utilisation(const State& state) override;
-    /// visit(fan, rupture) for every node that may rupture.
-    template <class Visit>
-    void for_each_node(const State& state, Visit visit);
+    /// The parts of found_ that this look has filled, in the order of the candidates.
+    std::span<Found> look(const State& state);
+    void find_candidates(const State& state);
     void find_corner_forces(const State& state);
-    FanInterface interface_of(const State& state, const Fan::Interface& at);
+    void look_at_node(const State& state, std::int32_t node, Found& found) const;
+    void add_openings(std::int32_t node, const NodeRupture& rupture, CrackOpenings& openings) const;
 
     std::int64_t look_ = 0;
     std::vector<std::int64_t> looked_at_;  ///< per node
     std::vector<std::int32_t> candidates_;
-    bool has_corner_forces_ = false;          ///< whether those of this look are known
-    std::vector<CornerForce> corner_forces_;  ///< on edges and faces, by ascending node
-    Fan fan_;
-    NodeRupture rupture_;
-    std::vector<FanCorner> corners_;
-    std::vector<FanInterface> interfaces_;
+    FanTable fans_;
+    std::vector<std::size_t> packs_;          ///< of the elements around the candidates
+    std::vector<std::int64_t> asked_;         ///< per pack, look
+    std::vector<std::uint8_t> open_fan_;      ///< per node: a candidate with an open fan
+    std::vector<std::uint8_t> held_;          ///< per node, bit c: a support moves its component c
+    std::vector<CornerForce> corner_forces_;  ///< on edges and faces at nodes with open fans, by ascending node
+    std::vector<Found> found_;
 };
 
 }  // namespace gneiss

@@ -15,22 +15,33 @@ using Vector = Vec2<double>;
 
 double length(const Vector& v) { return std::hypot(v.x, v.y); }
 
-/// g of an interface and its gradient by the traction on the left element.
-struct Utilisation {
-    double value;
-    Vector gradient;
-};
+/// Of the node, m/s2.
+Vector acceleration(std::span<const FanCorner> corners) {
+    Vector force{0, 0};
+    double mass = 0;
+    for (const FanCorner& corner : corners) {
+        force += corner.force;
+        mass += corner.mass;
+    }
+    return (1 / mass) * force;
+}
 
-Utilisation utilisation(const FanInterface& at, const Vector& traction) {
+/// g squared of an interface, -. @param traction  on the left element, Pa
+double squared_utilisation(const FanInterface& at, const Vector& traction) {
+    return envelope_index(*at.properties, dot(traction, at.normal), dot(traction, at.along));
+}
+
+/// Gradient of g by the traction, 1/Pa; 0 where g = 0.
+Vector gradient(const FanInterface& at, const Vector& traction) {
+    const double value = std::sqrt(squared_utilisation(at, traction));
+    if (!(value > 0)) return {0, 0};
     const CohesionProperties<double>& p = *at.properties;
     const double normal = dot(traction, at.normal), shear = dot(traction, at.along);
     const double tension = std::max(normal, 0.0) / p.tensile_strength;
     const double cohesive = std::max(std::abs(shear) - p.tan_phi_initial * std::max(-normal, 0.0), 0.0) / p.cohesion;
-    const double value = std::hypot(tension, cohesive);
-    if (!(value > 0)) return {0, {0, 0}};
     const double by_normal = normal > 0 ? tension / p.tensile_strength : cohesive * p.tan_phi_initial / p.cohesion;
     const double by_shear = std::copysign(cohesive / p.cohesion, shear);
-    return {value, (1 / value) * (by_normal * at.normal + by_shear * at.along)};
+    return (1 / value) * (by_normal * at.normal + by_shear * at.along);
 }
 
 /// A closed fan as a function of c.
@@ -40,18 +51,24 @@ public:
     ClosedFan(std::span<const FanInterface> interfaces, std::span<const Vector> base)
         : interfaces_(interfaces), base_(base) {}
 
-    Vector traction(std::size_t j, const Vector& c) const {
-        return (interfaces_[j].sense / interfaces_[j].weight) * (c + base_[j]);
+    Vector traction(std::size_t j, const Vector& c) const { return interfaces_[j].per_area * (c + base_[j]); }
+    double utilisation(std::size_t j, const Vector& c) const {
+        return std::sqrt(squared_utilisation(interfaces_[j], traction(j, c)));
     }
-    /// g_j and its gradient by c.
-    Utilisation of(std::size_t j, const Vector& c) const {
-        const Utilisation u = utilisation(interfaces_[j], traction(j, c));
-        return {u.value, (interfaces_[j].sense / interfaces_[j].weight) * u.gradient};
+    /// Of g_j by c, 1/N.
+    Vector gradient(std::size_t j, const Vector& c) const {
+        return interfaces_[j].per_area * gneiss::gradient(interfaces_[j], traction(j, c));
     }
-    Utilisation largest(const Vector& c) const {
-        Utilisation worst{-1, {0, 0}};
+    struct Largest {
+        double value;
+        std::size_t interface;
+    };
+    Largest largest(const Vector& c) const {
+        Largest worst{0, 0};
         for (std::size_t j = 0; j < interfaces_.size(); ++j)
-            if (const Utilisation u = of(j, c); u.value > worst.value) worst = u;
+            if (const double square = squared_utilisation(interfaces_[j], traction(j, c)); square > worst.value)
+                worst = {square, j};
+        worst.value = std::sqrt(worst.value);
         return worst;
     }
 
@@ -117,14 +134,15 @@ Vector minimise(const ClosedFan& fan, const Vector& start, double half) {
     Polygon polygon(start, half);
     Vector at = start;
     for (int k = 0; k < most_cuts && !polygon.empty() && !(smallest < 1); ++k) {
-        const Utilisation u = fan.largest(at);
-        if (u.value < smallest) {
-            smallest = u.value;
+        const ClosedFan::Largest worst = fan.largest(at);
+        if (worst.value < smallest) {
+            smallest = worst.value;
             best = at;
         }
-        const double slope = length(u.gradient);
+        const Vector gradient = fan.gradient(worst.interface, at);
+        const double slope = length(gradient);
         if (!(slope > 0) || slope * polygon.diameter() < accuracy * smallest) break;
-        polygon.cut(at, u.gradient);
+        polygon.cut(at, gradient);
         if (!polygon.empty()) at = polygon.centroid();
     }
     return best;
@@ -133,7 +151,7 @@ Vector minimise(const ClosedFan& fan, const Vector& start, double half) {
 /// The interfaces whose openings are compatible with each other: gradients that combine to zero, two of them or three.
 std::vector<std::size_t> mechanism(const ClosedFan& fan, const Vector& c, std::size_t n) {
     std::vector<double> values;
-    for (std::size_t j = 0; j < n; ++j) values.push_back(fan.of(j, c).value);
+    for (std::size_t j = 0; j < n; ++j) values.push_back(fan.utilisation(j, c));
     std::vector<double> sorted = values;
     std::ranges::sort(sorted, std::greater());
     // two at least, should the search have ended before the second one was active
@@ -143,7 +161,7 @@ std::vector<std::size_t> mechanism(const ClosedFan& fan, const Vector& c, std::s
     for (std::size_t j = 0; j < n; ++j)
         if (values[j] >= least) {
             active.push_back(j);
-            gradients.push_back(fan.of(j, c).gradient);
+            gradients.push_back(fan.gradient(j, c));
         }
     std::vector<std::size_t> pair;
     double closest = std::numeric_limits<double>::infinity();
@@ -174,6 +192,22 @@ std::vector<std::size_t> mechanism(const ClosedFan& fan, const Vector& c, std::s
 
 }  // namespace
 
+double bound_of_closed_fan(std::span<const FanCorner> corners, std::span<const double> per_force_squared) {
+    const Vector a = acceleration(corners);
+    const auto for_each_base = [&](auto visit) {
+        Vector base{0, 0};  // P_j
+        for (std::size_t j = 0; j < corners.size(); ++j) visit(j, base += corners[j].mass * a - corners[j].force);
+    };
+    Vector sum{0, 0};
+    for_each_base([&](std::size_t, const Vector& base) { sum += base; });
+    const Vector c = (-1 / static_cast<double>(corners.size())) * sum;
+    double largest = 0;
+    for_each_base([&](std::size_t j, const Vector& base) {
+        largest = std::max(largest, dot(c + base, c + base) * per_force_squared[j]);
+    });
+    return std::sqrt(largest);
+}
+
 void find_rupture(std::span<const FanCorner> corners, std::span<const FanInterface> interfaces,
                   std::array<bool, 2> held, NodeRupture& found) {
     const std::size_t n = interfaces.size();
@@ -183,41 +217,35 @@ void find_rupture(std::span<const FanCorner> corners, std::span<const FanInterfa
     found.traction.resize(n);
     if (n == 0) return;
 
-    Vector force{0, 0};
-    double mass = 0;
-    for (const FanCorner& corner : corners) {
-        force += corner.force;
-        mass += corner.mass;
-    }
-    const Vector a = (1 / mass) * force;
-    thread_local std::vector<Vector> base;
-    base.resize(n);
+    const Vector a = acceleration(corners);
+    std::vector<Vector>& base = found.traction;  // until they are known
     Vector sum{0, 0};
     for (std::size_t j = 0; j < n; ++j) {
         sum += corners[j].mass * a - corners[j].force;
         base[j] = sum;
     }
-    const auto of_stresses = [&](std::size_t j) {
-        return (interfaces[j].sense * interfaces[j].weight) * interfaces[j].stress_traction;
-    };
     // closed: nearest to the stresses in the sense of least squares of the tractions, weighted by area
     Vector c{0, 0};
     if (closed) {
         double weights = 0;
         for (std::size_t j = 0; j < n; ++j) {
-            c += (1 / interfaces[j].weight) * (of_stresses(j) - base[j]);
-            weights += 1 / interfaces[j].weight;
+            const FanInterface& at = interfaces[j];
+            const double inverse = at.sense * at.per_area;  // 1/w
+            c += at.sense * at.stress_traction - inverse * base[j];
+            weights += inverse;
         }
         c = (1 / weights) * c;
     }
     const bool supported = held[0] || held[1];
     if (supported)
         for (std::size_t j = 0; j < n; ++j) {
-            if (held[0]) base[j].x = of_stresses(j).x - c.x;
-            if (held[1]) base[j].y = of_stresses(j).y - c.y;
+            const Vector of_stresses = (interfaces[j].sense * interfaces[j].weight) * interfaces[j].stress_traction;
+            if (held[0]) base[j].x = of_stresses.x - c.x;
+            if (held[1]) base[j].y = of_stresses.y - c.y;
         }
     const ClosedFan fan(interfaces, base);
-    if (closed && !supported && fan.largest(c).value >= 1) {
+    double largest = fan.largest(c).value;
+    if (closed && !supported && largest >= 1) {
         double half = 0;
         for (std::size_t j = 0; j < n; ++j) {
             const auto& p = *interfaces[j].properties;
@@ -226,14 +254,14 @@ void find_rupture(std::span<const FanCorner> corners, std::span<const FanInterfa
                 half = std::max(half, interfaces[j].weight * std::max(p.tensile_strength, p.cohesion));
         }
         c = minimise(fan, c, 2 * half);
-        if (fan.largest(c).value >= 1) found.opening = mechanism(fan, c, n);
+        largest = fan.largest(c).value;
+        if (largest >= 1) found.opening = mechanism(fan, c, n);
+    } else if (largest >= 1) {
+        for (std::size_t j = 0; j < n; ++j)
+            if (fan.utilisation(j, c) >= 1) found.opening.push_back(j);
     }
-    for (std::size_t j = 0; j < n; ++j) {
-        found.traction[j] = fan.traction(j, c);
-        const double value = fan.of(j, c).value;
-        found.utilisation = std::max(found.utilisation, value);
-        if ((!closed || supported) && value >= 1) found.opening.push_back(j);
-    }
+    found.utilisation = largest;
+    for (std::size_t j = 0; j < n; ++j) found.traction[j] = fan.traction(j, c);
     // one interface alone does not part a closed fan: the others hold it, whatever the support gives
     if (closed && found.opening.size() < 2) {
         found.opening.clear();

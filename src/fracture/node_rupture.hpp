@@ -41,6 +41,7 @@ struct FanInterface {
     double sense;                  ///< 1: the fan's walk crosses it from left to right; -1: from right to left
     Vec2<double> stress_traction;  ///< on the left element, Pa, from the mean of the stresses on both sides
     const CohesionProperties<double>* properties;
+    double per_area = sense / weight;  ///< makes T_j the traction on the left element, 1/m2
 };
 
 struct NodeRupture {
@@ -55,5 +56,10 @@ struct NodeRupture {
 /// @param[out] found  overwritten
 void find_rupture(std::span<const FanCorner> corners, std::span<const FanInterface> interfaces,
                   std::array<bool, 2> held, NodeRupture& found);
+
+/// What the utilisation of a closed fan is at most, at little cost: that of one c, with the least strength in every
+/// direction.
+/// @param per_force_squared  of every interface, 1/N2: g^2 is at most |T_j|^2 times this
+double bound_of_closed_fan(std::span<const FanCorner> corners, std::span<const double> per_force_squared);
 
 }  // namespace gneiss

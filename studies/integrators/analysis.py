@@ -88,7 +88,7 @@ def explanation(run: Run, problem: str) -> str:
     if problem in ("splitting", "cantilever") and run.status == "refused":
         goes_back = scheme.family == "Verlet" and scheme.integrator["composition"] != "single"
         return BACK_IN_TIME if goes_back and "back in time" in run.message else ""
-    if scheme.name == "heun_euler_2_1_2" and problem == "discs" and "a node has moved" in run.message:
+    if scheme.name == "heun_euler_2_1_2" and problem == "discs" and "have come from nothing" in run.message:
         return NO_LIMIT
     if scheme.family in ("implicit Runge-Kutta", "additive Runge-Kutta") and "ARK_CONV_FAILURE" in run.message:
         impact = PROBLEMS["impact"]

@@ -121,6 +121,41 @@ TEST(NodeRupture, StraightSeam_PartsAtTheMeanOfItsTwoEnds) {
     for (const Vector& traction : found.traction) EXPECT_NEAR(traction.y, -3.015e6, search * 3e6);
 }
 
+TEST(NodeRupture, BoundOfClosedFan_BelowOneHolds) {
+    std::mt19937 random(23);
+    std::normal_distribution<double> normal;
+    const double least = std::min(rock.tensile_strength, rock.cohesion);
+    int held = 0, ruptured = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        const std::size_t n = 2 + static_cast<std::size_t>(trial) % 7;
+        Ring ring(random_angles(random, n), std::vector<double>(n, 0.02),
+                  {1.5e6 * normal(random), 1.5e6 * normal(random), 1e6 * normal(random)}, rock);
+        for (FanCorner& corner : ring.corners) corner.force += 3e3 * Vector{normal(random), normal(random)};
+        std::vector<double> per_force_squared;
+        for (const FanInterface& at : ring.interfaces)
+            per_force_squared.push_back(1 / (at.weight * least * at.weight * least));
+        const NodeRupture found = rupture(ring.corners, ring.interfaces);
+        if (bound_of_closed_fan(ring.corners, per_force_squared) < 1) {
+            ++held;
+            EXPECT_TRUE(found.opening.empty()) << trial;
+        }
+        if (!found.opening.empty()) ++ruptured;
+    }
+    EXPECT_GT(held, 1000);
+    EXPECT_GT(ruptured, 100);
+}
+
+TEST(NodeRupture, BoundOfClosedFan_SimpleTension_IsTheUtilisation) {
+    // interfaces along and across the pull: the bound counts the whole tension against the least strength
+    const double pull = 1.2e6;
+    const std::vector<double> right_angles{0, std::numbers::pi / 2, std::numbers::pi, 1.5 * std::numbers::pi};
+    const Ring ring(right_angles, std::vector<double>(4, 0.02), {pull, 0, 0}, rock);
+    std::vector<double> per_force_squared;
+    for (const FanInterface& at : ring.interfaces)
+        per_force_squared.push_back(1 / std::pow(at.weight * rock.tensile_strength, 2));
+    EXPECT_NEAR(bound_of_closed_fan(ring.corners, per_force_squared), pull / rock.tensile_strength, round_off);
+}
+
 TEST(NodeRupture, ClosedFan_NoOtherDistributionIsAnyBetter) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
