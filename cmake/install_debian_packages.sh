@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that gneiss is built with. Does nothing, in a fraction of a second, where all of them
-# are present. studies/run.sh and tests/run.sh call it first.
+# are present, and removes none. studies/run.sh and tests/run.sh call it first.
 #
-# usage: cmake/install_debian_packages.sh [--list]
+# usage: cmake/install_debian_packages.sh [--list] [SET]
+#   SET      run         what building the program, running it, and the studies need
+#            crosscheck  that, and deal.II, by which the study `locking` and some tests judge
+#            tests       that, and what the tests and benchmarks need (default)
 #   --list   print the package names, one per line, and stop
 #
 # exit status: 0 all present, 1 they could not be installed, 2 wrong use
@@ -10,7 +13,7 @@ set -euo pipefail
 
 # What a find_package, an include or a script of this repository asks for, and nothing else: a bare machine waits for
 # every further one.
-packages=(
+run=(
     ca-certificates git
     g++ cmake ninja-build ccache                   # compiler with OpenMP, build
     libeigen3-dev libxsimd-dev                     # linear algebra, packs
@@ -19,19 +22,31 @@ packages=(
     libgmsh-dev                                    # meshes
     libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-    libgtest-dev libgmock-dev libbenchmark-dev     # tests, benchmarks
-    libdeal.ii-dev                                 # tests/crosscheck, the largest of all; gneiss itself does without
     python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
 )
+crosscheck=(libdeal.ii-dev)                        # tests/crosscheck, the largest of all; gneiss itself does without
+tests=(libgtest-dev libgmock-dev libbenchmark-dev)
 
 say() { printf 'packages: %s\n' "$*"; }
 fail() { printf 'packages: error: %s\n' "$*" >&2; exit 1; }
 
-if [[ $# -gt 1 || ( $# -eq 1 && $1 != --list ) ]]; then
-    echo "usage: ${0##*/} [--list]" >&2
+list=0
+if [[ ${1-} == --list ]]; then
+    list=1
+    shift
+fi
+set=${1-tests}
+case $set in
+    run) packages=("${run[@]}") ;;
+    crosscheck) packages=("${run[@]}" "${crosscheck[@]}") ;;
+    tests) packages=("${run[@]}" "${crosscheck[@]}" "${tests[@]}") ;;
+    *) packages=() ;;
+esac
+if [[ $# -gt 1 || ${#packages[@]} -eq 0 ]]; then
+    echo "usage: ${0##*/} [--list] [run|crosscheck|tests]" >&2
     exit 2
 fi
-if [[ ${1-} == --list ]]; then
+if ((list)); then
     printf '%s\n' "${packages[@]}"
     exit 0
 fi
@@ -114,7 +129,16 @@ done
 [[ ${#unknown[@]} -eq 0 ]] || apt_failed "apt's lists do not have ${unknown[*]}. Is the archive within reach? gneiss is
 developed on Debian 12"
 
-say "installing (apt-get install --no-install-recommends); on a bare machine about 0.9 GB to fetch, several minutes"
+# What apt would do, told without doing it: a package of the user's that would have to go is theirs to give up.
+plan=$(LC_ALL=C apt-get -s -o APT::Get::Show-User-Simulation-Note=0 --no-install-recommends install "${missing[@]}" 2>&1) \
+    || { printf '%s\n' "$plan" >>"$log"; apt_failed "apt-get cannot install them"; }
+removed=$(sed -n 's/^Remv \([^ ]*\).*/\1/p' <<<"$plan" | tr '\n' ' ')
+[[ -z $removed ]] || fail "installing ${missing[*]}
+would remove ${removed% }: nothing was done. If that is what you want, run
+apt-get install --no-install-recommends ${missing[*]}"
+
+new=$(grep -c '^Inst ' <<<"$plan" || true)
+say "installing $new packages (apt-get install --no-install-recommends)"
 apt install --no-install-recommends "${missing[@]}" || apt_failed "apt-get install failed"
 
 mapfile -t missing < <(missing_packages)

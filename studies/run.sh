@@ -41,15 +41,17 @@ step() { began=$SECONDS; printf '\n[%s] %s\n' "$1" "$2"; }
 took() { printf '      took %d min %02d s\n' $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)); }
 fail() { printf '\nstudies/run.sh: %s\n' "$1" >&2; exit 1; }
 
+packages=run
+! grep -q crosscheck "studies/$name/Snakefile" || packages=crosscheck
 step 1/4 "Debian packages: on a bare machine several minutes, otherwise at once"
-cmake/install_debian_packages.sh
+cmake/install_debian_packages.sh "$packages"
 took
 
 step 2/4 "building the program with preset $preset in build/$preset: some minutes the first time"
 cmake --preset "$preset" >/dev/null \
     || fail "configuring failed; if build/$preset is left over from another place, delete it"
 targets=(gneiss_app)
-if grep -q crosscheck "studies/$name/Snakefile"; then
+if [[ $packages == crosscheck ]]; then
     if [[ $(cmake --build --preset "$preset" --target help) == *gneiss_crosscheck_app* ]]; then
         targets+=(gneiss_crosscheck_app)
     else

@@ -40,7 +40,7 @@ took() { printf '      took %d min %02d s\n' $(((SECONDS - began) / 60)) $(((SEC
 fail() { printf '\ntests/run.sh: %s\n' "$1" >&2; exit 1; }
 
 step 1/4 "Debian packages: on a bare machine several minutes, otherwise at once"
-cmake/install_debian_packages.sh
+cmake/install_debian_packages.sh tests
 took
 
 step 2/4 "configuring preset $preset in build/$preset: some seconds"
