@@ -10,7 +10,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
-find_package(VTK 9.1 REQUIRED COMPONENTS IOXML CommonDataModel CommonCore)
+find_package(ZLIB REQUIRED)
 find_package(Gmsh REQUIRED)
 find_package(SuiteSparse REQUIRED)
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvode ida kinsol nvecserial sunlinsolpcg sunlinsolspgmr sunnonlinsolfixedpoint

@@ -20,7 +20,7 @@ run=(
     libsuitesparse-dev libsundials-dev             # sparse linear systems; nonlinear ones and ODEs
     libopenblas0-serial                            # dense blocks of factors: 3 times faster than with Debian's reference BLAS
     libgmsh-dev                                    # meshes
-    libvtk9-dev libhdf5-dev                        # .vtu, checkpoints; VTK brings the -dev packages its own config asks for
+    zlib1g-dev libhdf5-dev                         # .vtu, checkpoints
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
     python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
 )

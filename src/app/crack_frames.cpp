@@ -79,24 +79,24 @@ void CrackFrames::write(const State& state, std::size_t step) {
     mesh.integers = {{"side", sides}};
     series_.set_mesh(mesh);
     series_.write(state.t, static_cast<std::int64_t>(step),
-                  {{{"displacement", displacement, 2},
+                  {{{"displacement", displacement, "m", 2},
                     {"end_damage", end_damage},
-                    {"end_opening", end_opening},
-                    {"end_slip", end_slip},
-                    {"end_dissipated_fracture_i", end_fracture_i},
-                    {"end_dissipated_fracture_ii", end_fracture_ii},
-                    {"end_tensile_strength", end_tensile_strength},
-                    {"end_cohesion", end_cohesion}},
+                    {"end_opening", end_opening, "m"},
+                    {"end_slip", end_slip, "m"},
+                    {"end_dissipated_fracture_i", end_fracture_i, "J/m2"},
+                    {"end_dissipated_fracture_ii", end_fracture_ii, "J/m2"},
+                    {"end_tensile_strength", end_tensile_strength, "Pa"},
+                    {"end_cohesion", end_cohesion, "Pa"}},
                    {{"damage", damage},
-                    {"opening", opening},
-                    {"slip", slip},
+                    {"opening", opening, "m"},
+                    {"slip", slip, "m"},
                     {"mode", mode},
-                    {"dissipated_fracture", fracture},
-                    {"dissipated_friction", friction},
-                    {"time_of_failure", failed_at},
-                    {"fracture_energy_i", energy_i},
-                    {"fracture_energy_ii", energy_ii},
-                    {"penalty", penalty}}});
+                    {"dissipated_fracture", fracture, "J/m2"},
+                    {"dissipated_friction", friction, "J/m2"},
+                    {"time_of_failure", failed_at, "s"},
+                    {"fracture_energy_i", energy_i, "J/m2"},
+                    {"fracture_energy_ii", energy_ii, "J/m2"},
+                    {"penalty", penalty, "Pa/m"}}});
 
     if (fragments_.last_time() == state.t) return;
     const Fragments fragments = find_fragments(cracking_, state);

@@ -56,12 +56,12 @@ void FieldFrames::write(const SolidSystem& system, const State& state, std::size
     }
     const std::vector<std::string> components{"v", "alpha", "beta", "psi"};
     series_.write(state.t, static_cast<std::int64_t>(step),
-                  {{{"displacement", u, 2}, {"velocity", v, 2}, {"speed", speed}},
-                   {{"cauchy_stress", cauchy, 3, {"xx", "yy", "xy"}},
-                    {"munjiza_stress", munjiza, 4, components},
-                    {"stretch", stretch, 4, components},
-                    {"axis_alpha", alpha, 2},
-                    {"axis_beta", beta, 2}}});
+                  {{{"displacement", u, "m", 2}, {"velocity", v, "m/s", 2}, {"speed", speed, "m/s"}},
+                   {{"cauchy_stress", cauchy, "Pa", 3, {"xx", "yy", "xy"}},
+                    {"munjiza_stress", munjiza, "Pa", 4, components},
+                    {"stretch", stretch, "", 4, components},
+                    {"axis_alpha", alpha, "", 2},
+                    {"axis_beta", beta, "", 2}}});
 }
 
 }  // namespace gneiss

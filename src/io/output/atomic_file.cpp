@@ -83,12 +83,16 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     }
 }
 
-void write_atomically(const fs::path& path, std::string_view contents) {
+void write_atomically(const fs::path& path, const std::function<void(int)>& writer) {
     write_atomically(path, [&](const fs::path& part) {
         Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC, path);
-        write_all(file.number(), contents, path);
+        writer(file.number());
         file.close_checked();
     });
+}
+
+void write_atomically(const fs::path& path, std::string_view contents) {
+    write_atomically(path, [&](int file) { write_all(file, contents, path); });
 }
 
 std::string read_file(const fs::path& path) {
@@ -117,6 +121,11 @@ void write_all(int descriptor, std::string_view contents, const fs::path& path) 
         if (n < 0) throw io_error_from_errno(path, "cannot write");
         contents.remove_prefix(static_cast<std::size_t>(n));
     }
+}
+
+void write_all_at(int descriptor, std::string_view contents, std::size_t offset, const fs::path& path) {
+    if (::lseek(descriptor, static_cast<off_t>(offset), SEEK_SET) < 0) throw io_error_from_errno(path, "cannot write");
+    write_all(descriptor, contents, path);
 }
 
 }  // namespace gneiss

@@ -33,6 +33,9 @@ std::filesystem::path part_path(const std::filesystem::path& path);
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& writer);
 
+/// The same with the descriptor of the file, open for writing.
+void write_atomically(const std::filesystem::path& path, const std::function<void(int)>& writer);
+
 /// The same for contents that are at hand.
 void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
@@ -45,5 +48,8 @@ void make_folder(const std::filesystem::path& path);
 /// Writes all bytes to a file descriptor, however many calls that takes.
 /// @throws IoError with `path` and the reason
 void write_all(int descriptor, std::string_view contents, const std::filesystem::path& path);
+
+/// The same from a byte of the file on; what is between its end and that byte becomes zeros.
+void write_all_at(int descriptor, std::string_view contents, std::size_t offset, const std::filesystem::path& path);
 
 }  // namespace gneiss

@@ -1,19 +1,37 @@
 #include "io/output/pvd_index.hpp"
 
 #include <fmt/format.h>
-#include <vtkNew.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLDataParser.h>
 
 #include <charconv>
-#include <cstring>
-#include <sstream>
+#include <optional>
+#include <string_view>
 
 #include "base/errors.hpp"
 #include "io/output/atomic_file.hpp"
-#include "io/output/vtk_messages.hpp"
 
 namespace gneiss {
+namespace {
+
+/// The value of ` NAME="VALUE"` in a tag.
+std::optional<std::string_view> attribute(std::string_view tag, std::string_view name) {
+    const std::string before = fmt::format(" {}=\"", name);
+    const std::size_t found = tag.find(before);
+    if (found == tag.npos) return {};
+    const std::size_t first = found + before.size(), end = tag.find('"', first);
+    if (end == tag.npos) return {};
+    return tag.substr(first, end - first);
+}
+
+std::optional<PvdFrame> frame_of(std::string_view tag) {
+    const auto time = attribute(tag, "timestep"), file = attribute(tag, "file");
+    PvdFrame frame{};
+    if (!time || !file || std::from_chars(time->data(), time->data() + time->size(), frame.t).ec != std::errc())
+        return {};
+    frame.file = *file;
+    return frame;
+}
+
+}  // namespace
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdFrame>& frames) {
     std::string text =
@@ -27,26 +45,20 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdFrame>& f
 }
 
 std::vector<PvdFrame> read_pvd(const std::filesystem::path& path) {
-    std::istringstream stream(read_file(path));
-    VtkMessages messages;
-    vtkNew<vtkXMLDataParser> parser;
-    messages.listen_to(parser);
-    parser->SetStream(&stream);
-    const bool parsed = parser->Parse() != 0;
-    vtkXMLDataElement* root = parsed ? parser->GetRootElement() : nullptr;
-    vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
-    if (!collection) throw InputError(path.string(), "is no list of frames (.pvd): it has no Collection");
+    const std::string text = read_file(path);
+    const std::string_view all = text, opening = "<Collection>", entry = "<DataSet";
+    const std::size_t begin = all.find(opening), end = all.find("</Collection>");
+    if (begin == all.npos || end == all.npos || end < begin)
+        throw InputError(path.string(), "is no list of frames (.pvd): it has no Collection");
 
     std::vector<PvdFrame> frames;
-    for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-        vtkXMLDataElement* entry = collection->GetNestedElement(i);
-        const char* time = entry->GetAttribute("timestep");
-        const char* file = entry->GetAttribute("file");
-        PvdFrame frame{};
-        if (!time || !file || std::from_chars(time, time + std::strlen(time), frame.t).ec != std::errc())
-            throw InputError(path.string(), fmt::format("entry {} lacks a timestep or a file", i + 1));
-        frame.file = file;
-        frames.push_back(std::move(frame));
+    std::string_view rest = all.substr(begin + opening.size(), end - begin - opening.size());
+    for (std::size_t at = rest.find(entry); at != rest.npos; at = rest.find(entry)) {
+        rest.remove_prefix(at + entry.size());
+        const auto frame = frame_of(rest.substr(0, rest.find('>')));
+        if (!frame)
+            throw InputError(path.string(), fmt::format("entry {} lacks a timestep or a file", frames.size() + 1));
+        frames.push_back(*frame);
     }
     return frames;
 }

@@ -15,7 +15,7 @@ struct PvdFrame {
 /// Writes the list whole or not at all; times in the shortest decimals that read back exactly. @throws IoError
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdFrame>& frames);
 
-/// Reads such a list. @throws InputError if the file is none. @throws IoError if it cannot be read
+/// Reads a list that write_pvd() wrote. @throws InputError if the file is none. @throws IoError if it cannot be read
 std::vector<PvdFrame> read_pvd(const std::filesystem::path& path);
 
 }  // namespace gneiss

@@ -1,177 +1,185 @@
 #include "io/output/vtu_writer.hpp"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
-#include <algorithm>
+#include <bit>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "io/output/atomic_file.hpp"
-#include "io/output/vtk_messages.hpp"
+#include "io/output/zlib_blocks.hpp"
 
 namespace gneiss {
 namespace {
 
-// A frame of doubles shrinks little further at higher levels, which take several times as long.
-constexpr int zlib_level = 1;
+static_assert(std::endian::native == std::endian::little, "the header of the files says so");
 
-vtkNew<vtkPoints> points_of(const FieldMesh& mesh) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i][0], mesh.points[i][1], 0.0);
-    return points;
-}
+constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5;
 
 template <std::size_t n>
-vtkNew<vtkCellArray> cells_of(std::span<const std::array<std::int32_t, n>> numbers, std::size_t n_given,
-                              const char* cell) {
-    const auto n_points = static_cast<std::int64_t>(n_given);
-    vtkNew<vtkTypeInt32Array> connectivity;
-    connectivity->SetNumberOfValues(static_cast<vtkIdType>(n * numbers.size()));
-    vtkIdType k = 0;
-    for (std::size_t e = 0; e < numbers.size(); ++e) {
-        for (const std::int32_t point : numbers[e]) {
-            if (!(point >= 0 && point < n_points))
-                throw std::invalid_argument(
-                    fmt::format("VtuWriter: {} {} names point {}, allowed: 0 to {}", cell, e, point, n_points - 1));
-            connectivity->SetValue(k++, point);
-        }
-    }
-    vtkNew<vtkTypeInt32Array> offsets;
-    offsets->SetNumberOfValues(static_cast<vtkIdType>(numbers.size() + 1));
-    for (vtkIdType e = 0; e < offsets->GetNumberOfValues(); ++e)
-        offsets->SetValue(e, static_cast<std::int32_t>(n * static_cast<std::size_t>(e)));
-
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(offsets, connectivity);
-    return cells;
+void check_points(std::span<const std::array<std::int32_t, n>> cells, std::size_t n_points, const char* cell) {
+    for (std::size_t e = 0; e < cells.size(); ++e)
+        for (const std::int32_t point : cells[e])
+            if (!(point >= 0 && static_cast<std::size_t>(point) < n_points))
+                throw std::invalid_argument(fmt::format("VtuWriter: {} {} names point {}, allowed: 0 to {}", cell, e,
+                                                        point, static_cast<std::ptrdiff_t>(n_points) - 1));
 }
 
-void check(const FieldArray& field, vtkIdType n_rows) {
+bool is_plane_vector(const FieldArray& field) { return field.n_components == 2 && field.component_names.empty(); }
+
+void check(const FieldArray& field, std::size_t n_rows) {
     const auto n_names = field.component_names.size();
     if (field.n_components < 1) throw std::invalid_argument("field " + field.name + ": needs a component");
     if (n_names != 0 && n_names != static_cast<std::size_t>(field.n_components))
         throw std::invalid_argument(
             fmt::format("field {}: {} components, but {} names for them", field.name, field.n_components, n_names));
-    if (field.values.size() != static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(field.n_components))
+    if (field.values.size() != n_rows * static_cast<std::size_t>(field.n_components))
         throw std::invalid_argument(fmt::format("field {}: {} numbers for {} rows of {} components", field.name,
                                                 field.values.size(), n_rows, field.n_components));
 }
 
-vtkNew<vtkDoubleArray> vtk_array(const FieldArray& field, vtkIdType n_rows) {
-    check(field, n_rows);
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(field.name.c_str());
-    if (field.n_components == 2 && field.component_names.empty()) {
-        // Readers take three components, and only those, for a vector (arrows, warping).
-        array->SetNumberOfComponents(3);
-        array->SetNumberOfTuples(n_rows);
-        double* row = array->GetPointer(0);
-        for (std::size_t i = 0; i < field.values.size(); i += 2, row += 3) {
-            row[0] = field.values[i];
-            row[1] = field.values[i + 1];
-            row[2] = 0.0;
-        }
-        return array;
-    }
-    array->SetNumberOfComponents(field.n_components);
-    for (int k = 0; k < static_cast<int>(field.component_names.size()); ++k)
-        array->SetComponentName(k, field.component_names[static_cast<std::size_t>(k)].c_str());
-    // VTK only reads it; 1: the memory stays ours.
-    array->SetArray(const_cast<double*>(field.values.data()), static_cast<vtkIdType>(field.values.size()), 1);
-    return array;
-}
-
-void add_fields(const std::vector<FieldArray>& fields, vtkIdType n_rows, vtkDataSetAttributes* target) {
+void check(const std::vector<FieldArray>& fields, std::size_t n_rows, std::set<std::string> names) {
     for (const FieldArray& field : fields) {
-        if (field.name.empty() || target->HasArray(field.name.c_str()))
+        if (field.name.empty() || !names.insert(field.name).second)
             throw std::invalid_argument("field '" + field.name + "': every array needs a name of its own");
-        target->AddArray(vtk_array(field, n_rows));
+        check(field, n_rows);
     }
 }
 
-void write_file(vtkUnstructuredGrid* grid, const std::filesystem::path& part, const std::filesystem::path& path) {
-    VtkMessages messages;
-    vtkNew<vtkXMLUnstructuredGridWriter> writer;
-    messages.listen_to(writer);
-    messages.listen_to(writer->GetExecutive());
-    writer->SetInputData(grid);
-    writer->SetFileName(part.c_str());
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(zlib_level);
-    writer->SetHeaderTypeToUInt64();  // arrays of 4 GiB and more
-    const bool written = writer->Write() != 0;
-    const unsigned long code = writer->GetErrorCode();
-    if (!written || code != vtkErrorCode::NoError || !messages.text().empty()) {
-        std::string reason =
-            code != vtkErrorCode::NoError ? vtkErrorCode::GetStringFromErrorCode(code) : messages.text();
-        throw IoError(path, "cannot write: " + (reason.empty() ? "VTK gives no reason" : reason));
-    }
+std::string attributes_of(const FieldArray& field) {
+    std::string text = fmt::format("type=\"Float64\" Name=\"{}\"", field.name);
+    // meshio gives a column, not a row of numbers, where one component is stated
+    if (field.n_components > 1)
+        text += fmt::format(" NumberOfComponents=\"{}\"", is_plane_vector(field) ? 3 : field.n_components);
+    for (std::size_t k = 0; k < field.component_names.size(); ++k)
+        text += fmt::format(" ComponentName{}=\"{}\"", k, field.component_names[k]);
+    return text;
+}
+
+/// One line of the head of the file.
+std::string data_array(const std::string& attributes, const std::string& unit, std::size_t offset) {
+    const std::string start = fmt::format("<DataArray {} format=\"appended\" offset=\"{}\"", attributes, offset);
+    if (unit.empty()) return start + "/>\n";
+    return start + fmt::format(
+                       "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>"
+                       "</DataArray>\n",
+                       unit);
+}
+
+std::string_view text_of(std::span<const std::uint64_t> numbers) {
+    return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
+}
+
+/// An array as it stands in the file, in memory.
+std::string compressed(const RawArray& array) {
+    std::string blocks;
+    std::vector<std::uint64_t> sizes;
+    compress_blocks(std::span(&array, 1), [&](std::size_t, std::string_view block) {
+        blocks += block;
+        sizes.push_back(block.size());
+    });
+    return std::string(text_of(block_header(array, sizes))) + blocks;
+}
+
+/// Compresses arrays into a file from byte `begin` on.
+/// @return where each begins, counted from `begin`, and where the last one ends
+std::vector<std::size_t> write_compressed(int file, std::size_t begin, std::span<const RawArray> arrays,
+                                          const std::filesystem::path& path) {
+    std::vector<std::size_t> places;
+    std::vector<std::vector<std::uint64_t>> sizes(arrays.size());
+    std::size_t at = 0;
+    const auto begin_arrays = [&](std::size_t n_begun) {
+        while (places.size() < n_begun) {
+            const RawArray& next = arrays[places.size()];
+            places.push_back(at);
+            at += text_of(block_header(next, std::vector<std::uint64_t>(next.n_blocks()))).size();
+        }
+    };
+    compress_blocks(arrays, [&](std::size_t array, std::string_view block) {
+        begin_arrays(array + 1);
+        write_all_at(file, block, begin + at, path);
+        at += block.size();
+        sizes[array].push_back(block.size());
+    });
+    begin_arrays(arrays.size());
+    places.push_back(at);
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        write_all_at(file, text_of(block_header(arrays[i], sizes[i])), begin + places[i], path);
+    return places;
 }
 
 }  // namespace
 
-struct VtuWriter::Grid {
-    vtkNew<vtkUnstructuredGrid> data;
-};
-
-VtuWriter::VtuWriter(const FieldMesh& mesh) : grid_(std::make_unique<Grid>()) {
-    grid_->data->SetPoints(points_of(mesh));
+VtuWriter::VtuWriter(const FieldMesh& mesh)
+    : n_points_(mesh.points.size()), n_cells_(mesh.triangles.empty() ? mesh.lines.size() : mesh.triangles.size()) {
     const bool of_lines = mesh.triangles.empty();
-    if (of_lines)
-        grid_->data->SetCells(VTK_LINE, cells_of(mesh.lines, mesh.points.size(), "line"));
-    else
-        grid_->data->SetCells(VTK_TRIANGLE, cells_of(mesh.triangles, mesh.points.size(), "triangle"));
-    const std::size_t n_cells = of_lines ? mesh.lines.size() : mesh.triangles.size();
+    check_points(mesh.lines, n_points_, "line");
+    check_points(mesh.triangles, n_points_, "triangle");
     for (const IntegerArray& integers : mesh.integers) {
-        if (integers.values.size() != n_cells)
+        if (integers.values.size() != n_cells_)
             throw std::invalid_argument(fmt::format("field {}: {} numbers for {} {}", integers.name,
-                                                    integers.values.size(), n_cells, of_lines ? "lines" : "triangles"));
-        vtkNew<vtkTypeInt32Array> array;
-        array->SetName(integers.name.c_str());
-        array->SetNumberOfValues(static_cast<vtkIdType>(integers.values.size()));
-        std::copy(integers.values.begin(), integers.values.end(), array->GetPointer(0));
-        grid_->data->GetCellData()->AddArray(array);
+                                                    integers.values.size(), n_cells_,
+                                                    of_lines ? "lines" : "triangles"));
+        integer_names_.push_back(integers.name);
+        mesh_.push_back({fmt::format("type=\"Int32\" Name=\"{}\"", integers.name), "",
+                         compressed({std::as_bytes(integers.values)})});
     }
+    mesh_.push_back({"type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", "m",
+                     compressed({std::as_bytes(mesh.points), true})});
+    mesh_.push_back({"type=\"Int32\" Name=\"connectivity\"", "",
+                     compressed({of_lines ? std::as_bytes(mesh.lines) : std::as_bytes(mesh.triangles)})});
+    std::vector<std::int32_t> ends(n_cells_);
+    for (std::size_t e = 0; e < n_cells_; ++e) ends[e] = static_cast<std::int32_t>((of_lines ? 2 : 3) * (e + 1));
+    mesh_.push_back({"type=\"Int32\" Name=\"offsets\"", "", compressed({std::as_bytes(std::span(ends))})});
+    const std::vector<std::uint8_t> types(n_cells_, of_lines ? vtk_line : vtk_triangle);
+    mesh_.push_back({"type=\"UInt8\" Name=\"types\"", "", compressed({std::as_bytes(std::span(types))})});
 }
 
-VtuWriter::~VtuWriter() = default;
-VtuWriter::VtuWriter(VtuWriter&&) noexcept = default;
-VtuWriter& VtuWriter::operator=(VtuWriter&&) noexcept = default;
-
 void VtuWriter::write(const std::filesystem::path& path, double t, std::int64_t step, const Fields& fields) const {
-    vtkNew<vtkUnstructuredGrid> frame;
-    frame->ShallowCopy(grid_->data);
-    add_fields(fields.points, frame->GetNumberOfPoints(), frame->GetPointData());
-    add_fields(fields.cells, frame->GetNumberOfCells(), frame->GetCellData());
+    check(fields.points, n_points_, {});
+    check(fields.cells, n_cells_, {integer_names_.begin(), integer_names_.end()});
+    std::vector<RawArray> arrays{{std::as_bytes(std::span(&t, 1))}, {std::as_bytes(std::span(&step, 1))}};
+    for (const auto* kind : {&fields.points, &fields.cells})
+        for (const FieldArray& field : *kind) arrays.push_back({std::as_bytes(field.values), is_plane_vector(field)});
 
-    vtkNew<vtkDoubleArray> time;
-    time->SetName("TimeValue");
-    time->InsertNextValue(t);
-    frame->GetFieldData()->AddArray(time);
-    vtkNew<vtkTypeInt64Array> steps;
-    steps->SetName("step");
-    steps->InsertNextValue(step);
-    frame->GetFieldData()->AddArray(steps);
+    // Offsets are known once everything is compressed, and the head stands in front of it.
+    const auto head = [&](std::span<const std::size_t> places) {
+        std::string text =
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+            "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
+        auto place = places.begin();
+        text += data_array("type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\"", "s", *place++);
+        text += data_array("type=\"Int64\" Name=\"step\" NumberOfTuples=\"1\"", "", *place++);
+        text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
+                            n_points_, n_cells_);
+        for (const FieldArray& field : fields.points) text += data_array(attributes_of(field), field.unit, *place++);
+        text += "</PointData>\n<CellData>\n";
+        for (const FieldArray& field : fields.cells) text += data_array(attributes_of(field), field.unit, *place++);
+        for (std::size_t i = 0; i < mesh_.size(); ++i) {
+            if (i == integer_names_.size()) text += "</CellData>\n<Points>\n";
+            if (i == integer_names_.size() + 1) text += "</Points>\n<Cells>\n";
+            text += data_array(mesh_[i].attributes, mesh_[i].unit, *place++);
+        }
+        return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+    };
+    const std::string_view opening = "<AppendedData encoding=\"raw\">\n_", closing = "\n</AppendedData>\n</VTKFile>\n";
+    const std::size_t n_arrays = arrays.size() + mesh_.size();
+    const std::size_t longest_head =
+        head(std::vector<std::size_t>(n_arrays, std::numeric_limits<std::size_t>::max())).size();
+    const std::size_t begin = longest_head + opening.size();
 
-    write_atomically(path, [&](const std::filesystem::path& part) { write_file(frame, part, path); });
+    write_atomically(path, [&](int file) {
+        std::vector<std::size_t> places = write_compressed(file, begin, arrays, path);
+        for (const MeshArray& array : mesh_) {
+            write_all_at(file, array.bytes, begin + places.back(), path);
+            places.push_back(places.back() + array.bytes.size());
+        }
+        write_all_at(file, closing, begin + places.back(), path);
+        const std::string text = head(places);
+        write_all_at(file, text + std::string(longest_head - text.size(), ' ') + std::string(opening), 0, path);
+    });
 }
 
 }  // namespace gneiss

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,8 +15,9 @@ namespace gneiss {
 struct FieldArray {
     std::string name;                               ///< "displacement", "cauchy_stress"; unique among its kind
     std::span<const double> values;                 ///< shape (n, n_components), row after row
+    std::string unit = {};                          ///< "m", "Pa"; empty: none
     int n_components = 1;                           ///< >= 1; 2 without names is a plane vector, written as (x, y, 0)
-    std::vector<std::string> component_names = {};  ///< none, or one for each component: {"xx", "yy", "xy"}
+    std::vector<std::string> component_names = {};  ///< none, or one for each component: {"v", "alpha", "beta", "psi"}
 };
 
 /// A named whole number for each cell that stays the same: composite, region.
@@ -42,14 +42,13 @@ struct Fields {
     std::vector<FieldArray> cells;   ///< arrays with n_cells rows
 };
 
-/// Writes any number of .vtu files on one mesh: VTK's XML format, appended raw binary, zlib. The mesh is copied once.
+/// Writes any number of .vtu files on one mesh: VTK's XML format, its data appended raw, compressed by zlib in blocks,
+/// little endian. Units stand where VTK has them, as UNITS_LABEL of an array. The bytes depend on what is written
+/// alone. The mesh is compressed once.
 class VtuWriter {
 public:
     /// @throws std::invalid_argument if a cell names a point that is not there, or an array has the wrong length
     explicit VtuWriter(const FieldMesh& mesh);
-    ~VtuWriter();
-    VtuWriter(VtuWriter&&) noexcept;
-    VtuWriter& operator=(VtuWriter&&) noexcept;
 
     /// Writes `path` whole or not at all. Field data: TimeValue = t (s), which readers take as the time, and step.
     /// @throws IoError if the file cannot be written
@@ -57,8 +56,14 @@ public:
     void write(const std::filesystem::path& path, double t, std::int64_t step, const Fields& fields) const;
 
 private:
-    struct Grid;  // keeps VTK out of this header
-    std::unique_ptr<Grid> grid_;
+    /// An array of the mesh as it stands in every file.
+    struct MeshArray {
+        std::string attributes, unit, bytes;
+    };
+
+    std::size_t n_points_, n_cells_;
+    std::vector<std::string> integer_names_;
+    std::vector<MeshArray> mesh_;  ///< integers, points, connectivity, offsets, types
 };
 
 }  // namespace gneiss

@@ -75,7 +75,7 @@ class TestFields(InFolder):
     TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
 
     def write_frame(self):
-        """A .vtu as VTK writes it: UInt32 header, blocks of 32768 bytes (here 32), zlib."""
+        """A .vtu as VTK writes it by default: UInt32 header, blocks of 32768 bytes (here 32), zlib."""
         data = b""
         offsets = []
         for array in (self.POINTS[:, :2] @ [1, 10], self.POINTS, self.TRIANGLES.ravel().astype("<i8"),

@@ -1,17 +1,12 @@
 #include "app/crack_frames.hpp"
 
 #include <gmock/gmock.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
 
 #include "fracture/interface_strength.hpp"
 #include "fracture/softening.hpp"
+#include "support/vtu_file.hpp"
 #include "unit/app/square_case.hpp"
 #include "unit/io/output_folder.hpp"
 
@@ -72,54 +67,44 @@ protected:
     }
     void write(const State& state) {
         CrackFrames(folder, *built.cracking, {}).write(state, 17);
-        reader->SetFileName((folder / "cracks_000000.vtu").c_str());
-        reader->Update();
-        grid = reader->GetOutput();
-        ASSERT_EQ(grid->GetNumberOfCells(), 4) << "edges on x = 1/2 alone have begun to soften";
-        ASSERT_EQ(grid->GetNumberOfPoints(), 8);
+        grid = test::read_vtu(folder / "cracks_000000.vtu");
+        ASSERT_EQ(grid.n_cells(), 4u) << "edges on x = 1/2 alone have begun to soften";
+        ASSERT_EQ(grid.n_points(), 8u);
     }
-    vtkDataArray* of_ends(const std::string& name) const { return grid->GetPointData()->GetArray(name.c_str()); }
-    vtkDataArray* of_edges(const std::string& name) const { return grid->GetCellData()->GetArray(name.c_str()); }
+    const test::VtuArray& of_ends(const std::string& name) const { return grid.of_point(name); }
+    const test::VtuArray& of_edges(const std::string& name) const { return grid.of_cell(name); }
     /// Every end, or every edge, has this value, but for the sign.
-    static void expect_all(vtkDataArray* values, double expected, double tolerance) {
-        ASSERT_NE(values, nullptr);
-        for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
-            EXPECT_NEAR(std::abs(values->GetTuple1(i)), expected, tolerance) << values->GetName() << " " << i;
+    static void expect_all(const test::VtuArray& values, double expected, double tolerance) {
+        for (std::size_t i = 0; i < values.n_rows(); ++i)
+            EXPECT_NEAR(std::abs(values(i)), expected, tolerance) << values.name << " " << i;
     }
 
     Case built;
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
-    vtkUnstructuredGrid* grid = nullptr;
+    test::VtuFile grid;
 };
-
-std::vector<std::string> names(vtkFieldData* data) {
-    std::vector<std::string> found;
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i) found.emplace_back(data->GetArrayName(i));
-    return found;
-}
 
 TEST_F(CracksOfSquare, Names_AreWhatADocumentedFrameHolds) {
     intrinsic(1e-2, 0);
     EXPECT_THAT(
-        names(grid->GetPointData()),
+        grid.names(grid.point_data),
         UnorderedElementsAre("displacement", "end_damage", "end_opening", "end_slip", "end_dissipated_fracture_i",
                              "end_dissipated_fracture_ii", "end_tensile_strength", "end_cohesion"));
     EXPECT_THAT(
-        names(grid->GetCellData()),
+        grid.names(grid.cell_data),
         UnorderedElementsAre("side", "damage", "opening", "slip", "mode", "dissipated_fracture", "dissipated_friction",
                              "time_of_failure", "fracture_energy_i", "fracture_energy_ii", "penalty"));
 }
 
 TEST_F(CracksOfSquare, Ends_StandAtTheEndsOfTheirEdges) {
     intrinsic(1e-2, 0);
-    for (int edge = 0; edge < 4; ++edge) {
-        const double* at = grid->GetPoint(2 * edge);
-        const double x = at[0], y = at[1], y_other = grid->GetPoint(2 * edge + 1)[1];
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+        const double x = grid.position(2 * edge, 0), y = grid.position(2 * edge, 1);
+        const double y_other = grid.position(2 * edge + 1, 1);
         EXPECT_DOUBLE_EQ(x, 0.5);
         EXPECT_NEAR(std::abs(y - y_other), length, round_off);
     }
-    for (int end = 0; end < 8; ++end)
-        EXPECT_NEAR(of_ends("displacement")->GetComponent(end, 0), 0.5e-2, round_off) << "the middle line's";
+    for (std::size_t end = 0; end < 8; ++end)
+        EXPECT_NEAR(of_ends("displacement")(end, 0), 0.5e-2, round_off) << "the middle line's";
 }
 
 TEST_F(CracksOfSquare, Softening_EndsTellOfTheirPath) {
@@ -145,7 +130,7 @@ TEST_F(CracksOfSquare, Softening_EndsTellOfTheirPath) {
     expect_all(of_edges("fracture_energy_ii"), energy_ii, 0);
     expect_all(of_edges("penalty"), penalty, round_off * penalty);
     expect_all(of_edges("mode"), opening * opening / (opening * opening + slip * slip), round_off);
-    for (int edge = 0; edge < 4; ++edge) EXPECT_TRUE(std::isnan(of_edges("time_of_failure")->GetTuple1(edge)));
+    for (std::size_t edge = 0; edge < 4; ++edge) EXPECT_TRUE(std::isnan(of_edges("time_of_failure")(edge)));
 }
 
 TEST_F(CracksOfSquare, FailedInOpening_HaveDissipatedGInOpening) {
@@ -164,9 +149,9 @@ TEST_F(CracksOfSquare, FailedInSliding_HaveDissipatedGInSliding) {
 
 TEST_F(CracksOfSquare, FailedInAConstantMix_FulfilTheLinearCriterion) {
     intrinsic(1e-2, 0.7e-2);
-    for (int end = 0; end < 8; ++end) {
-        const double in_opening = of_ends("end_dissipated_fracture_i")->GetTuple1(end);
-        const double in_sliding = of_ends("end_dissipated_fracture_ii")->GetTuple1(end);
+    for (std::size_t end = 0; end < 8; ++end) {
+        const double in_opening = of_ends("end_dissipated_fracture_i")(end);
+        const double in_sliding = of_ends("end_dissipated_fracture_ii")(end);
         EXPECT_GT(in_opening, 0.1 * energy_i);
         EXPECT_GT(in_sliding, 0.1 * energy_ii);
         EXPECT_NEAR(in_opening / energy_i + in_sliding / energy_ii, 1, round_off);
@@ -178,11 +163,11 @@ TEST_F(CracksOfSquare, Scatter_IsInTheStrengthsOfTheEnds) {
     scattered.fracture.weibull_modulus = 5;
     scattered.fracture.seed = 3;
     intrinsic(1e-2, 0, scattered);
-    for (int end = 0; end < 8; ++end) {
-        const auto side = static_cast<std::uint64_t>(of_edges("side")->GetTuple1(end / 2));
+    for (std::size_t end = 0; end < 8; ++end) {
+        const auto side = static_cast<std::uint64_t>(of_edges("side")(end / 2));
         const double factor = WeibullScatter{5, 3}.factor(side);
-        EXPECT_NEAR(of_ends("end_tensile_strength")->GetTuple1(end), factor * tensile, round_off * tensile);
-        EXPECT_NEAR(of_ends("end_cohesion")->GetTuple1(end), factor * cohesion, round_off * cohesion);
+        EXPECT_NEAR(of_ends("end_tensile_strength")(end), factor * tensile, round_off * tensile);
+        EXPECT_NEAR(of_ends("end_cohesion")(end), factor * cohesion, round_off * cohesion);
     }
 }
 
@@ -196,11 +181,11 @@ TEST_F(CracksOfSquare, Extrinsic_HaveTheStrengthAtWhichTheyOpened) {
     pulled = accepted(rest, pulled.u);
     ASSERT_NE(built.cracking->look(pulled), EventOutcome::none);
     write(accepted(pulled, right_half_moved(pulled.u, 1e-2, 0)));
-    for (int end = 0; end < 8; ++end) {
-        const double f = of_ends("end_tensile_strength")->GetTuple1(end);
+    for (std::size_t end = 0; end < 8; ++end) {
+        const double f = of_ends("end_tensile_strength")(end);
         EXPECT_NEAR(f, beyond * tensile, small_strain * tensile);
-        EXPECT_NEAR(of_ends("end_cohesion")->GetTuple1(end), cohesion / tensile * f, round_off * cohesion);
-        const double dissipated = of_ends("end_dissipated_fracture_i")->GetTuple1(end);
+        EXPECT_NEAR(of_ends("end_cohesion")(end), cohesion / tensile * f, round_off * cohesion);
+        const double dissipated = of_ends("end_dissipated_fracture_i")(end);
         EXPECT_NEAR(dissipated, energy_i + 0.5 * f * f / penalty, small_strain * energy_i)
             << "and the energy of its offset";
     }
