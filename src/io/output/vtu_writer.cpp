@@ -71,15 +71,16 @@ std::string_view text_of(std::span<const std::uint64_t> numbers) {
     return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
-/// An array as it stands in the file, in memory.
-std::string compressed(const RawArray& array) {
-    std::string blocks;
-    std::vector<std::uint64_t> sizes;
-    compress_blocks(std::span(&array, 1), [&](std::size_t, std::string_view block) {
-        blocks += block;
-        sizes.push_back(block.size());
+/// Arrays as they stand in the file, in memory.
+std::vector<std::string> compressed(std::span<const RawArray> arrays) {
+    std::vector<std::string> blocks(arrays.size());
+    std::vector<std::vector<std::uint64_t>> sizes(arrays.size());
+    compress_blocks(arrays, [&](std::size_t array, std::string_view block) {
+        blocks[array] += block;
+        sizes[array].push_back(block.size());
     });
-    return std::string(text_of(block_header(array, sizes))) + blocks;
+    for (std::size_t i = 0; i < arrays.size(); ++i) blocks[i].insert(0, text_of(block_header(arrays[i], sizes[i])));
+    return blocks;
 }
 
 /// Compresses arrays into a file from byte `begin` on.
@@ -116,24 +117,30 @@ VtuWriter::VtuWriter(const FieldMesh& mesh)
     const bool of_lines = mesh.triangles.empty();
     check_points(mesh.lines, n_points_, "line");
     check_points(mesh.triangles, n_points_, "triangle");
+    std::vector<RawArray> arrays;
+    const auto add = [&](std::string attributes, std::string unit, RawArray array) {
+        mesh_.push_back({std::move(attributes), std::move(unit), {}});
+        arrays.push_back(array);
+    };
     for (const IntegerArray& integers : mesh.integers) {
         if (integers.values.size() != n_cells_)
             throw std::invalid_argument(fmt::format("field {}: {} numbers for {} {}", integers.name,
                                                     integers.values.size(), n_cells_,
                                                     of_lines ? "lines" : "triangles"));
         integer_names_.push_back(integers.name);
-        mesh_.push_back({fmt::format("type=\"Int32\" Name=\"{}\"", integers.name), "",
-                         compressed({std::as_bytes(integers.values)})});
+        add(fmt::format("type=\"Int32\" Name=\"{}\"", integers.name), "", {std::as_bytes(integers.values)});
     }
-    mesh_.push_back({"type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", "m",
-                     compressed({std::as_bytes(mesh.points), true})});
-    mesh_.push_back({"type=\"Int32\" Name=\"connectivity\"", "",
-                     compressed({of_lines ? std::as_bytes(mesh.lines) : std::as_bytes(mesh.triangles)})});
+    add("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", "m", {std::as_bytes(mesh.points), true});
+    add("type=\"Int32\" Name=\"connectivity\"", "",
+        {of_lines ? std::as_bytes(mesh.lines) : std::as_bytes(mesh.triangles)});
     std::vector<std::int32_t> ends(n_cells_);
     for (std::size_t e = 0; e < n_cells_; ++e) ends[e] = static_cast<std::int32_t>((of_lines ? 2 : 3) * (e + 1));
-    mesh_.push_back({"type=\"Int32\" Name=\"offsets\"", "", compressed({std::as_bytes(std::span(ends))})});
+    add("type=\"Int32\" Name=\"offsets\"", "", {std::as_bytes(std::span(ends))});
     const std::vector<std::uint8_t> types(n_cells_, of_lines ? vtk_line : vtk_triangle);
-    mesh_.push_back({"type=\"UInt8\" Name=\"types\"", "", compressed({std::as_bytes(std::span(types))})});
+    add("type=\"UInt8\" Name=\"types\"", "", {std::as_bytes(std::span(types))});
+
+    std::vector<std::string> bytes = compressed(arrays);
+    for (std::size_t i = 0; i < mesh_.size(); ++i) mesh_[i].bytes = std::move(bytes[i]);
 }
 
 void VtuWriter::write(const std::filesystem::path& path, double t, std::int64_t step, const Fields& fields) const {
