@@ -1,35 +1,47 @@
 # One interface target carries every flag that our own code is compiled with. The architecture flag belongs here
-# and nowhere else: Eigen's alignment, and so the ABI, follows from it.
+# and nowhere else: Eigen's alignment and the width of packs, and so the ABI, follow from it. That is why whoever links an
+# installed gneiss gets it too; all but that is for this build.
 add_library(gneiss_options INTERFACE)
 add_library(gneiss::options ALIAS gneiss_options)
 target_compile_features(gneiss_options INTERFACE cxx_std_20)
 target_compile_options(gneiss_options INTERFACE
   -march=${GNEISS_ARCH}
   # sqrt and friends need no errno; -ffast-math would destroy log1p.
-  -fno-math-errno -fno-trapping-math
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wunused
+  "$<BUILD_INTERFACE:-fno-math-errno;-fno-trapping-math>"
+  "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-Woverloaded-virtual;-Wcast-align;-Wunused>"
   # notes that vectors are passed otherwise than in another ABI: everything here is built with one -march
   -Wno-psabi
   # g++ 12 warns of its own AVX-512 headers, which pass undefined registers on purpose
-  -Wno-uninitialized -Wno-maybe-uninitialized
+  "$<BUILD_INTERFACE:-Wno-uninitialized;-Wno-maybe-uninitialized>"
   # g++ 12 takes the counted appends inside fmt for writes behind an end
-  -Wno-stringop-overflow)
+  "$<BUILD_INTERFACE:-Wno-stringop-overflow>")
 if(GNEISS_WERROR)
-  target_compile_options(gneiss_options INTERFACE -Werror)
+  target_compile_options(gneiss_options INTERFACE "$<BUILD_INTERFACE:-Werror>")
 endif()
 if(GNEISS_SANITIZE)
-  target_compile_options(gneiss_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(gneiss_options INTERFACE -fsanitize=address,undefined)
+  target_compile_options(gneiss_options INTERFACE
+    "$<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize-recover=undefined;-fno-omit-frame-pointer>")
+  target_link_options(gneiss_options INTERFACE "$<BUILD_INTERFACE:-fsanitize=address,undefined>")
 endif()
 if(GNEISS_ASSERTIONS)
-  target_compile_options(gneiss_options INTERFACE -UNDEBUG)
+  target_compile_options(gneiss_options INTERFACE "$<BUILD_INTERFACE:-UNDEBUG>")
 endif()
-# Headers are included by their path from the root: "elements/cst.hpp", "system/state.hpp".
-target_include_directories(gneiss_options INTERFACE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/src")
+# Headers are included by their path from the root: "elements/cst.hpp", "system/state.hpp". Installed ones stand under
+# gneiss/, and so do the paths by which they include each other (cmake/Install.cmake).
+target_include_directories(gneiss_options INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>")
+
+# gneiss_exported(NAME): installed and exported as gneiss::NAME.
+function(gneiss_exported name)
+  set_target_properties(gneiss_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY GNEISS_LIBRARIES gneiss_${name})
+endfunction()
+gneiss_exported(options)
 
 # gneiss_library(NAME sources...): a static library gneiss_NAME with alias gneiss::NAME.
 function(gneiss_library name)
   add_library(gneiss_${name} STATIC ${ARGN})
   add_library(gneiss::${name} ALIAS gneiss_${name})
   target_link_libraries(gneiss_${name} PUBLIC gneiss::options)
+  gneiss_exported(${name})
 endfunction()

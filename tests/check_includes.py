@@ -33,6 +33,7 @@ MAY_INCLUDE = {
     "src/io/report": ["src/base"],
     "src/app": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model", "src/contact",
                 "src/fracture", "integrators", "src/io"],
+    "examples": [],  # of an installed gneiss, <gneiss/...>
 }
 
 # Headers of other projects that a layer may use; a layer that is not named here may use any.
