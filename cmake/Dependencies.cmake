@@ -1,4 +1,4 @@
-# Everything comes from Debian 12 packages (see cmake/install_debian_packages.sh); nothing is vendored.
+# Everything comes from packages of Debian 12 or 13 (see cmake/install_debian_packages.sh); nothing is vendored.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
@@ -15,6 +15,7 @@ find_package(Gmsh REQUIRED)
 find_package(SuiteSparse REQUIRED)
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvode ida kinsol nvecserial sunlinsolpcg sunlinsolspgmr sunnonlinsolfixedpoint
   sunnonlinsolnewton)
+include(SundialsFeatures)
 # Another python3 may come first on PATH; the figures need Debian's, with numpy and matplotlib.
 set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python with numpy and matplotlib")
 find_package(Python3 COMPONENTS Interpreter)

@@ -1,4 +1,4 @@
-# KLU, CHOLMOD and UMFPACK of SuiteSparse, which ships no CMake files in Debian 12: one target SuiteSparse::all.
+# KLU, CHOLMOD and UMFPACK of SuiteSparse, which ships CMake files in Debian 13 and none in 12: one target SuiteSparse::all.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(SuiteSparse_required SuiteSparse_INCLUDE_DIR)
 set(SuiteSparse_LIBRARIES)

@@ -13,8 +13,9 @@ install(FILES "${PROJECT_SOURCE_DIR}/docs/deck.md" DESTINATION "${CMAKE_INSTALL_
 
 # gneiss_exported() keeps the list. The judge of the cross-check is no library for others.
 get_property(gneiss_libraries GLOBAL PROPERTY GNEISS_LIBRARIES)
+set_target_properties(gneiss_sundials PROPERTIES EXPORT_NAME sundials)
 set_target_properties(gneiss_xsimd PROPERTIES EXPORT_NAME xsimd)
-install(TARGETS ${gneiss_libraries} gneiss_xsimd EXPORT gneissTargets ARCHIVE COMPONENT development
+install(TARGETS ${gneiss_libraries} gneiss_sundials gneiss_xsimd EXPORT gneissTargets ARCHIVE COMPONENT development
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 set(gneiss_cmake_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gneiss")
 install(EXPORT gneissTargets NAMESPACE gneiss:: DESTINATION "${gneiss_cmake_dir}" COMPONENT development)

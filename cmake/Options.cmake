@@ -15,6 +15,10 @@ target_compile_options(gneiss_options INTERFACE
   "$<BUILD_INTERFACE:-Wno-uninitialized;-Wno-maybe-uninitialized>"
   # g++ 12 takes the counted appends inside fmt for writes behind an end
   "$<BUILD_INTERFACE:-Wno-stringop-overflow>")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  # newer ones take a name that is passed as a string for the owner of the reference that is returned
+  target_compile_options(gneiss_options INTERFACE "$<BUILD_INTERFACE:-Wno-dangling-reference>")
+endif()
 if(GNEISS_WERROR)
   target_compile_options(gneiss_options INTERFACE "$<BUILD_INTERFACE:-Werror>")
 endif()

@@ -97,15 +97,15 @@ Arkode::Arkode(const Options& options)
     options_.validate();
 }
 
-void Arkode::Deleter::operator()(void* memory) const { ARKStepFree(&memory); }
+void Arkode::Deleter::operator()(void* memory) const { GNEISS_ARKODE(ARKStep, Free)(&memory); }
 
 auto Arkode::explicit_rates() const -> Rates {
     if (table_.explicit_id < 0) return nullptr;
     if (table_.kind() == RungeKuttaTable::Kind::explicit_)
-        return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+        return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
             return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::all, dydt);
         };
-    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+    return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
         return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::external, dydt);
     };
 }
@@ -113,10 +113,10 @@ auto Arkode::explicit_rates() const -> Rates {
 auto Arkode::implicit_rates() const -> Rates {
     if (table_.implicit_id < 0) return nullptr;
     if (table_.kind() == RungeKuttaTable::Kind::implicit)
-        return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+        return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
             return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::all, dydt);
         };
-    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+    return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
         return static_cast<Arkode*>(self)->rate(t, y, FirstOrderForm::Part::rest, dydt);
     };
 }
@@ -129,31 +129,33 @@ void Arkode::create(double t) {
     void* arkode = memory_.get();
     if (arkode == nullptr) throw std::bad_alloc();
     const auto weights = [](N_Vector, N_Vector w, void* self) { return static_cast<Arkode*>(self)->error_weights(w); };
-    const auto newton_matrix = [](realtype at, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, booleantype reuse,
-                                  booleantype* fresh, realtype gamma, void* self, N_Vector, N_Vector, N_Vector) {
+    const auto newton_matrix = [](sunrealtype at, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype reuse,
+                                  sunbooleantype* fresh, sunrealtype gamma, void* self, N_Vector, N_Vector, N_Vector) {
         *fresh = !reuse;
         return static_cast<Arkode*>(self)->linear_system(at, y, reuse, gamma, 1);
     };
-    ARKStepSetErrFile(arkode, nullptr);  // what went wrong is told by return values
-    check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
-    check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
+    GNEISS_SUNDIALS_SILENCE(ARKStep, arkode);
+    check(GNEISS_ARKODE(ARKStep, SetUserData)(arkode, this), "ARKStepSetUserData");
+    check(GNEISS_ARKODE(ARKStep, WFtolerances)(arkode, weights), "ARKStepWFtolerances");
     check(ARKStepSetTableNum(arkode, static_cast<ARKODE_DIRKTableID>(table_.implicit_id),
                              static_cast<ARKODE_ERKTableID>(table_.explicit_id)),
           "ARKStepSetTableNum");
-    if (options().longest > 0) check(ARKStepSetMaxStep(arkode, options().longest), "ARKStepSetMaxStep");
+    if (options().longest > 0)
+        check(GNEISS_ARKODE(ARKStep, SetMaxStep)(arkode, options().longest), "ARKStepSetMaxStep");
     if (table_.kind() != RungeKuttaTable::Kind::explicit_) {
         nonlinear_ = new_newton_iteration();
-        check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
+        check(GNEISS_ARKODE(ARKStep, SetNonlinearSolver)(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
         trust_no_earlier_rate(nonlinear_.get());
-        check(ARKStepSetLinearSolver(arkode, newton().linear_solver(), newton().matrix()), "ARKStepSetLinearSolver");
-        check(ARKStepSetLinSysFn(arkode, newton_matrix), "ARKStepSetLinSysFn");
-        check(ARKStepSetMaxNonlinIters(arkode, most_iterations), "ARKStepSetMaxNonlinIters");
+        check(GNEISS_ARKODE(ARKStep, SetLinearSolver)(arkode, newton().linear_solver(), newton().matrix()),
+              "ARKStepSetLinearSolver");
+        check(GNEISS_ARKODE(ARKStep, SetLinSysFn)(arkode, newton_matrix), "ARKStepSetLinSysFn");
+        check(GNEISS_ARKODE(ARKStep, SetMaxNonlinIters)(arkode, most_iterations), "ARKStepSetMaxNonlinIters");
     }
 }
 
 void Arkode::restart(double t) {
     check(ARKStepReInit(memory_.get(), explicit_rates(), implicit_rates(), t, y()), "ARKStepReInit");
-    check(ARKStepSetInitStep(memory_.get(), 0), "ARKStepSetInitStep");  // it is to be estimated
+    check(GNEISS_ARKODE(ARKStep, SetInitStep)(memory_.get(), 0), "ARKStepSetInitStep");  // it is to be estimated
     refused_ = 0;
 }
 
@@ -162,48 +164,48 @@ int Arkode::step(double dt, double t_stop, double& t) {
     if (dt > 0) {
         // without a stop time, where ARKODE 5.4 interpolates what it has just computed: one to four evaluations of
         // forces
-        check(ARKStepSetFixedStep(arkode, dt), "ARKStepSetFixedStep");
-        const int flag = ARKStepEvolve(arkode, t_stop, y(), &t, ARK_ONE_STEP);
+        check(GNEISS_ARKODE(ARKStep, SetFixedStep)(arkode, dt), "ARKStepSetFixedStep");
+        const int flag = GNEISS_ARKODE(ARKStep, Evolve)(arkode, t_stop, y(), &t, ARK_ONE_STEP);
         constexpr double round_off = 1e-9;  // of a step
         if (std::abs(t - t_stop) <= round_off * dt) t = t_stop;
         return flag;
     }
-    check(ARKStepSetStopTime(arkode, t_stop), "ARKStepSetStopTime");
+    check(GNEISS_ARKODE(ARKStep, SetStopTime)(arkode, t_stop), "ARKStepSetStopTime");
     double from = 0, trial = 0;
-    check(ARKStepGetCurrentTime(arkode, &from), "ARKStepGetCurrentTime");
+    check(GNEISS_ARKODE(ARKStep, GetCurrentTime)(arkode, &from), "ARKStepGetCurrentTime");
     N_VScale(1, y(), start_.get());
     for (int attempt = 0;; ++attempt) {
-        const int flag = ARKStepEvolve(arkode, t_stop, y(), &t, ARK_ONE_STEP);
+        const int flag = GNEISS_ARKODE(ARKStep, Evolve)(arkode, t_stop, y(), &t, ARK_ONE_STEP);
         // a stage that cannot be evaluated: ARKODE takes a shorter step where it is implicit alone
         constexpr int most_attempts = 20;
         if (flag != ARK_UNREC_RHSFUNC_ERR || attempt == most_attempts) return flag;
-        if (attempt == 0) check(ARKStepGetCurrentStep(arkode, &trial), "ARKStepGetCurrentStep");
+        if (attempt == 0) check(GNEISS_ARKODE(ARKStep, GetCurrentStep)(arkode, &trial), "ARKStepGetCurrentStep");
         constexpr double shorter = 0.25;
         trial = shorter * std::min(trial, t_stop - from);
         ++refused_;
         N_VScale(1, start_.get(), y());
-        check(ARKStepReset(arkode, from, y()), "ARKStepReset");
-        check(ARKStepSetInitStep(arkode, trial), "ARKStepSetInitStep");
+        check(GNEISS_ARKODE(ARKStep, Reset)(arkode, from, y()), "ARKStepReset");
+        check(GNEISS_ARKODE(ARKStep, SetInitStep)(arkode, trial), "ARKStepSetInitStep");
     }
 }
 
-int Arkode::dense(double t, N_Vector at) { return ARKStepGetDky(memory_.get(), t, 0, at); }
+int Arkode::dense(double t, N_Vector at) { return GNEISS_ARKODE(ARKStep, GetDky)(memory_.get(), t, 0, at); }
 
 double Arkode::last_step() {
     double dt = 0;
-    ARKStepGetLastStep(memory_.get(), &dt);
+    GNEISS_ARKODE(ARKStep, GetLastStep)(memory_.get(), &dt);
     return dt;
 }
 
 std::size_t Arkode::failed_trials() {
     long by_error = 0, by_solver = 0;
-    ARKStepGetNumErrTestFails(memory_.get(), &by_error);
-    ARKStepGetNumStepSolveFails(memory_.get(), &by_solver);
+    GNEISS_ARKODE(ARKStep, GetNumErrTestFails)(memory_.get(), &by_error);
+    GNEISS_ARKODE(ARKStep, GetNumStepSolveFails)(memory_.get(), &by_solver);
     return static_cast<std::size_t>(by_error + by_solver) + refused_;
 }
 
 std::string Arkode::flag_name(int flag) {
-    const std::unique_ptr<char, void (*)(void*)> name(ARKStepGetReturnFlagName(flag), std::free);
+    const std::unique_ptr<char, void (*)(void*)> name(GNEISS_ARKODE(ARKStep, GetReturnFlagName)(flag), std::free);
     return name.get();
 }
 

@@ -29,17 +29,17 @@ void Cvode::create(double t) {
     const bool bdf = options_.method == Method::bdf;
     memory_.reset(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context()));
     void* cvode = memory_.get();
-    const auto rates = [](realtype at, N_Vector y, N_Vector dydt, void* self) {
+    const auto rates = [](sunrealtype at, N_Vector y, N_Vector dydt, void* self) {
         return static_cast<Cvode*>(self)->rate(at, y, FirstOrderForm::Part::all, dydt);
     };
     const auto weights = [](N_Vector, N_Vector w, void* self) { return static_cast<Cvode*>(self)->error_weights(w); };
-    const auto newton_matrix = [](realtype at, N_Vector y, N_Vector, SUNMatrix, booleantype reuse, booleantype* fresh,
-                                  realtype gamma, void* self, N_Vector, N_Vector, N_Vector) {
+    const auto newton_matrix = [](sunrealtype at, N_Vector y, N_Vector, SUNMatrix, sunbooleantype reuse,
+                                  sunbooleantype* fresh, sunrealtype gamma, void* self, N_Vector, N_Vector, N_Vector) {
         *fresh = !reuse;
         return static_cast<Cvode*>(self)->linear_system(at, y, reuse, gamma, 1);
     };
     check(CVodeInit(cvode, rates, t, y()), "CVodeInit");
-    CVodeSetErrFile(cvode, nullptr);  // what went wrong is told by return values
+    GNEISS_SUNDIALS_SILENCE(CVode, cvode);
     check(CVodeSetUserData(cvode, this), "CVodeSetUserData");
     check(CVodeWFtolerances(cvode, weights), "CVodeWFtolerances");
     if (options_.max_order > 0) check(CVodeSetMaxOrd(cvode, options_.max_order), "CVodeSetMaxOrd");

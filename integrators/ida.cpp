@@ -32,18 +32,18 @@ void Ida::create(double t) {
     find_rates(t);
     memory_.reset(IDACreate(context()));
     void* ida = memory_.get();
-    const auto residual = [](realtype at, N_Vector y, N_Vector dydt, N_Vector r, void* self) {
+    const auto residual = [](sunrealtype at, N_Vector y, N_Vector dydt, N_Vector r, void* self) {
         const int flag = static_cast<Ida*>(self)->rate(at, y, FirstOrderForm::Part::all, r);
         N_VLinearSum(1, dydt, -1, r, r);
         return flag;
     };
     const auto weights = [](N_Vector, N_Vector w, void* self) { return static_cast<Ida*>(self)->error_weights(w); };
-    const auto newton_matrix = [](realtype at, realtype c, N_Vector y, N_Vector, N_Vector, SUNMatrix, void* self,
+    const auto newton_matrix = [](sunrealtype at, sunrealtype c, N_Vector y, N_Vector, N_Vector, SUNMatrix, void* self,
                                   N_Vector, N_Vector, N_Vector) {
         return static_cast<Ida*>(self)->linear_system(at, y, false, 1 / c, 1 / c);
     };
     check(IDAInit(ida, residual, t, y(), rates_.get()), "IDAInit");
-    IDASetErrFile(ida, nullptr);  // what went wrong is told by return values
+    GNEISS_SUNDIALS_SILENCE(IDA, ida);
     check(IDASetUserData(ida, this), "IDASetUserData");
     check(IDAWFtolerances(ida, weights), "IDAWFtolerances");
     if (options_.max_order > 0) check(IDASetMaxOrd(ida, options_.max_order), "IDASetMaxOrd");

@@ -52,21 +52,21 @@ Mri::Mri(const Options& options) : SundialsOde(options, false), options_(options
     options_.validate();
 }
 
-void Mri::SlowDeleter::operator()(void* memory) const { MRIStepFree(&memory); }
-void Mri::FastDeleter::operator()(void* memory) const { ARKStepFree(&memory); }
+void Mri::SlowDeleter::operator()(void* memory) const { GNEISS_ARKODE(MRIStep, Free)(&memory); }
+void Mri::FastDeleter::operator()(void* memory) const { GNEISS_ARKODE(ARKStep, Free)(&memory); }
 void Mri::StepperDeleter::operator()(void* stepper) const {
     auto own = static_cast<MRIStepInnerStepper>(stepper);
     MRIStepInnerStepper_Free(&own);
 }
 
 auto Mri::slow_rates() -> Rates {
-    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+    return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
         return static_cast<Mri*>(self)->rate(t, y, FirstOrderForm::Part::without_interactions, dydt);
     };
 }
 
 auto Mri::fast_rates() -> Rates {
-    return [](realtype t, N_Vector y, N_Vector dydt, void* self) {
+    return [](sunrealtype t, N_Vector y, N_Vector dydt, void* self) {
         return static_cast<Mri*>(self)->rate(t, y, FirstOrderForm::Part::interactions, dydt);
     };
 }
@@ -76,24 +76,24 @@ void Mri::create(double t) {
     fast_.reset(ARKStepCreate(fast_rates(), nullptr, t, y(), context()));
     void* fast = fast_.get();
     if (fast == nullptr) throw std::bad_alloc();
-    ARKStepSetErrFile(fast, nullptr);  // what went wrong is told by return values
-    check(ARKStepSetUserData(fast, this), "ARKStepSetUserData");
-    check(ARKStepWFtolerances(fast, weights), "ARKStepWFtolerances");
+    GNEISS_SUNDIALS_SILENCE(ARKStep, fast);
+    check(GNEISS_ARKODE(ARKStep, SetUserData)(fast, this), "ARKStepSetUserData");
+    check(GNEISS_ARKODE(ARKStep, WFtolerances)(fast, weights), "ARKStepWFtolerances");
     check(ARKStepSetTableNum(fast, ARKODE_DIRK_NONE, fast_table), "ARKStepSetTableNum");
-    const auto follow = [](realtype at, N_Vector y, void* self) {
+    const auto follow = [](sunrealtype at, N_Vector y, void* self) {
         return static_cast<Mri*>(self)->follow_interactions(at, y);
     };
-    check(ARKStepSetPostprocessStepFn(fast, follow), "ARKStepSetPostprocessStepFn");
+    check(GNEISS_ARKODE(ARKStep, SetPostprocessStepFn)(fast, follow), "ARKStepSetPostprocessStepFn");
     constexpr long no_limit = -1;  // between two stages of the slow part
-    check(ARKStepSetMaxNumSteps(fast, no_limit), "ARKStepSetMaxNumSteps");
+    check(GNEISS_ARKODE(ARKStep, SetMaxNumSteps)(fast, no_limit), "ARKStepSetMaxNumSteps");
     MRIStepInnerStepper stepper = nullptr;
     check(ARKStepCreateMRIStepInnerStepper(fast, &stepper), "ARKStepCreateMRIStepInnerStepper");
     stepper_.reset(stepper);
     slow_.reset(MRIStepCreate(slow_rates(), nullptr, t, y(), stepper, context()));
     void* slow = slow_.get();
     if (slow == nullptr) throw std::bad_alloc();
-    MRIStepSetErrFile(slow, nullptr);
-    check(MRIStepSetUserData(slow, this), "MRIStepSetUserData");
+    GNEISS_SUNDIALS_SILENCE(MRIStep, slow);
+    check(GNEISS_ARKODE(MRIStep, SetUserData)(slow, this), "MRIStepSetUserData");
     const OwnedCoupling coupling(MRIStepCoupling_LoadTable(static_cast<ARKODE_MRITableID>(table_.id)));
     check(MRIStepSetCoupling(slow, coupling.get()), "MRIStepSetCoupling");
 }
@@ -111,22 +111,22 @@ void Mri::restart(double t) {
 
 int Mri::step(double dt, double t_stop, double& t) {
     begin_path();
-    check(MRIStepSetFixedStep(slow_.get(), dt), "MRIStepSetFixedStep");
-    check(MRIStepSetStopTime(slow_.get(), t_stop), "MRIStepSetStopTime");
-    return MRIStepEvolve(slow_.get(), t_stop, y(), &t, ARK_ONE_STEP);
+    check(GNEISS_ARKODE(MRIStep, SetFixedStep)(slow_.get(), dt), "MRIStepSetFixedStep");
+    check(GNEISS_ARKODE(MRIStep, SetStopTime)(slow_.get(), t_stop), "MRIStepSetStopTime");
+    return GNEISS_ARKODE(MRIStep, Evolve)(slow_.get(), t_stop, y(), &t, ARK_ONE_STEP);
 }
 
-int Mri::dense(double t, N_Vector at) { return MRIStepGetDky(slow_.get(), t, 0, at); }
+int Mri::dense(double t, N_Vector at) { return GNEISS_ARKODE(MRIStep, GetDky)(slow_.get(), t, 0, at); }
 
 double Mri::last_step() {
     double dt = 0;
-    MRIStepGetLastStep(slow_.get(), &dt);
+    GNEISS_ARKODE(MRIStep, GetLastStep)(slow_.get(), &dt);
     return dt;
 }
 
 std::size_t Mri::failed_trials() {
     long by_error = 0;
-    ARKStepGetNumErrTestFails(fast_.get(), &by_error);
+    GNEISS_ARKODE(ARKStep, GetNumErrTestFails)(fast_.get(), &by_error);
     return static_cast<std::size_t>(by_error);
 }
 
@@ -140,7 +140,7 @@ std::string Mri::doubt(const FrequencyBound& bound) const {
 }
 
 std::string Mri::flag_name(int flag) {
-    const std::unique_ptr<char, void (*)(void*)> name(MRIStepGetReturnFlagName(flag), std::free);
+    const std::unique_ptr<char, void (*)(void*)> name(GNEISS_ARKODE(MRIStep, GetReturnFlagName)(flag), std::free);
     return name.get();
 }
 

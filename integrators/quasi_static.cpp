@@ -97,7 +97,7 @@ void QuasiStatic::allocate(const SemiDiscrete& system) {
         if (flag != KIN_SUCCESS) throw std::runtime_error(fmt::format("SUNDIALS: {} answers {}", call, flag));
     };
     check(KINInit(kinsol, Problem::residual, unknowns_.get()), "KINInit");
-    KINSetErrFile(kinsol, nullptr);  // what went wrong is told by return values
+    GNEISS_SUNDIALS_SILENCE(KIN, kinsol);
     check(KINSetLinearSolver(kinsol, tangent_->linear_solver(), tangent_->matrix()), "KINSetLinearSolver");
     check(KINSetJacFn(kinsol, Problem::jacobian), "KINSetJacFn");
     check(KINSetMaxSetupCalls(kinsol, 1), "KINSetMaxSetupCalls");  // a new tangent in every iteration

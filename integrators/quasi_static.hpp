@@ -53,7 +53,7 @@ private:
     bool indefinite_ = false;  ///< the tangent of the last equilibrium
     std::vector<double> right_;
 
-    sundials::Context context_;
+    SilentContext context_;
     std::unique_ptr<StaticTangent> tangent_;
     OwnedVector unknowns_, unknown_scale_, force_scale_;
     std::unique_ptr<void, void (*)(void*)> kinsol_;

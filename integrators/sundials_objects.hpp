@@ -2,7 +2,6 @@
 // What SUNDIALS works with, owned by C++: contexts, vectors over our arrays, and shells behind which matrices and
 // linear solvers of ours stand.
 
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nonlinearsolver.h>
@@ -12,17 +11,13 @@
 #include <new>
 #include <span>
 #include <string>
-#include <sundials/sundials_context.hpp>
 #include <utility>
 #include <vector>
 
 #include "linear/linear_solver.hpp"
+#include "linear/sundials_api.hpp"
 
 namespace gneiss {
-
-inline std::span<double> values_of(N_Vector vector) {
-    return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
-}
 
 struct VectorDeleter {
     void operator()(N_Vector vector) const { N_VDestroy(vector); }
@@ -70,7 +65,7 @@ OwnedLinearSolver new_linear_solver(Owner* owner, SUNContext context) {
         auto& of = *static_cast<Owner*>(self->content);
         return of.guard()([&] { of.set_up(); });
     };
-    solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
         auto& of = *static_cast<Owner*>(self->content);
         return of.guard()([&] { of.solve(values_of(b), values_of(x)); });
     };

@@ -313,7 +313,7 @@ OwnedNonlinearSolver SundialsOde::new_newton_iteration() {
 void SundialsOde::trust_no_earlier_rate(SUNNonlinearSolver solver) {
     // Hairer and Wanner, Solving Ordinary Differential Equations II (1996), IV.8: what is left after a correction is at
     // most rate/(1 - rate) of it
-    const auto test = [](SUNNonlinearSolver nonlinear, N_Vector, N_Vector correction, realtype tolerance,
+    const auto test = [](SUNNonlinearSolver nonlinear, N_Vector, N_Vector correction, sunrealtype tolerance,
                          N_Vector weights, void* self) {
         double& before = static_cast<SundialsOde*>(self)->correction_before_;
         const double now = N_VWrmsNorm(correction, weights);
@@ -321,7 +321,7 @@ void SundialsOde::trust_no_earlier_rate(SUNNonlinearSolver solver) {
         SUNNonlinSolGetCurIter(nonlinear, &iteration);
         const double rate = iteration == 0 ? 0.5 : now / before;
         before = now;
-        if (now == 0 || (rate < 1 && rate / (1 - rate) * now <= tolerance)) return SUN_NLS_SUCCESS;
+        if (now == 0 || (rate < 1 && rate / (1 - rate) * now <= tolerance)) return 0;
         constexpr double diverging = 2;  // as in CVODE
         return rate > diverging ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
     };

@@ -144,7 +144,7 @@ private:
 
     Options options_;
     bool needs_newton_;
-    sundials::Context context_;
+    SilentContext context_;
     FirstOrderForm form_;
     std::unique_ptr<NewtonSystem> newton_;
     ProblemScales scales_;

@@ -1,30 +1,21 @@
 #include "linear/krylov.hpp"
 
 #include <fmt/format.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_pcg.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
-#include <sundials/sundials_context.hpp>
 #include <utility>
 #include <vector>
 
 #include "linear/linear_solver.hpp"
+#include "linear/sundials_api.hpp"
 
 namespace gneiss {
-namespace {
-
-std::span<double> values_of(N_Vector vector) {
-    return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
-}
-
-}  // namespace
-
 struct Krylov::Sundials {
-    sundials::Context context;
+    SilentContext context;
     std::vector<double> right, solution;  ///< of the whole system
     std::vector<double> b, x;             ///< of what is iterated
     N_Vector b_vector = nullptr, x_vector = nullptr;
@@ -66,7 +57,7 @@ struct Krylov::Sundials {
                     "no or negative stiffness");
         });
     }
-    static int solve_preconditioner(void* data, N_Vector r, N_Vector z, realtype, int) {
+    static int solve_preconditioner(void* data, N_Vector r, N_Vector z, sunrealtype, int) {
         auto& self = *static_cast<Sundials*>(data);
         return self.guarded([&] { (*self.precondition)(values_of(r), values_of(z)); });
     }
@@ -90,7 +81,7 @@ Krylov::Krylov(Method method, std::size_t n, const Options& options)
     if (s.solver == nullptr) throw std::bad_alloc();
     SUNLinSolSetATimes(s.solver, &s, Sundials::times);
     SUNLinSolSetPreconditioner(s.solver, &s, nullptr, Sundials::solve_preconditioner);
-    if (SUNLinSolInitialize(s.solver) != SUNLS_SUCCESS) throw std::bad_alloc();
+    if (SUNLinSolInitialize(s.solver) != 0) throw std::bad_alloc();
 }
 
 Krylov::~Krylov() = default;
@@ -145,7 +136,7 @@ void Krylov::iterate(double size, std::size_t spent) {
     const auto taken = static_cast<std::size_t>(SUNLinSolNumIters(s.solver));
     iterations_ += taken;
     if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
-    if (flag != SUNLS_SUCCESS) give_up(SUNLinSolResNorm(s.solver), spent + taken);
+    if (flag != 0) give_up(SUNLinSolResNorm(s.solver), spent + taken);
 }
 
 std::size_t Krylov::bytes() const {

@@ -1,0 +1,30 @@
+# gneiss::sundials: vectors of SUNDIALS, and what its headers have as definitions for src/linear/sundials_api.hpp. Asked of
+# the headers, not of a version.
+include(CheckCXXSymbolExists)
+include(CMakePushCheckState)
+
+find_path(GNEISS_SUNDIALS_HEADERS arkode/arkode.h HINTS "${SUNDIALS_DIR}/../../../../include" REQUIRED)
+mark_as_advanced(GNEISS_SUNDIALS_HEADERS)
+
+cmake_push_check_state(RESET)
+set(CMAKE_REQUIRED_QUIET ON)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # compiled, not linked
+# Debian builds version 7 with MPI, whose types then stand in every header; SUNDIALS' own configuration looks for it.
+set(CMAKE_REQUIRED_INCLUDES "${GNEISS_SUNDIALS_HEADERS}" ${MPI_C_INCLUDE_DIRS})
+check_cxx_symbol_exists(KINSetErrFile "cstdio;kinsol/kinsol.h" GNEISS_SUNDIALS_HAS_SET_ERR_FILE)
+check_cxx_symbol_exists(SUNContext_ClearErrHandlers "cstdio;sundials/sundials_context.h" GNEISS_SUNDIALS_HAS_ERR_HANDLERS)
+check_cxx_symbol_exists(ARKodeEvolve "cstdio;arkode/arkode.h" GNEISS_SUNDIALS_HAS_COMMON_ARKODE)
+unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
+cmake_pop_check_state()
+if(NOT GNEISS_SUNDIALS_HAS_SET_ERR_FILE AND NOT GNEISS_SUNDIALS_HAS_ERR_HANDLERS)
+  message(FATAL_ERROR "SUNDIALS' headers in ${GNEISS_SUNDIALS_HEADERS} do not compile, or are those of an unknown version: "
+    "CMakeFiles/CMakeConfigureLog.yaml or CMakeFiles/CMakeError.log has the compiler's words")
+endif()
+
+add_library(gneiss_sundials INTERFACE)
+add_library(gneiss::sundials ALIAS gneiss_sundials)
+target_link_libraries(gneiss_sundials INTERFACE SUNDIALS::nvecserial)
+foreach(feature SET_ERR_FILE ERR_HANDLERS COMMON_ARKODE)
+  target_compile_definitions(gneiss_sundials INTERFACE
+    GNEISS_SUNDIALS_HAS_${feature}=$<BOOL:${GNEISS_SUNDIALS_HAS_${feature}}>)
+endforeach()
