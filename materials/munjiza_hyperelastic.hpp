@@ -2,6 +2,7 @@
 // Hyper-elastic Munjiza material, m = M e on the total logarithmic strains  [FORMULATION 3; Lei et al. 2016, (2)-(14)].
 
 #include "materials/munjiza_stress.hpp"
+#include "materials/out_of_plane.hpp"
 #include "materials/work_meter.hpp"
 
 namespace gneiss {
@@ -22,6 +23,7 @@ struct MunjizaHyperelastic {
     using Memory = PointMemory<T, n_internal, n_history>;
 
     MunjizaConstants constants;
+    double M_z = 0;  ///< Pa, transversely_isotropic_across(); for the stress across the plane alone
 
     /// df/du of an element that takes the mean volume is symmetric: its forces are a gradient by u.
     static constexpr bool symmetric_tangent() { return !direct; }
@@ -60,6 +62,14 @@ struct MunjizaHyperelastic {
     MunjizaComponents<T> munjiza_stress(const PointKinematics<T>& point, const Volume<T>& s_v, const Memory<V>&) const {
         const MunjizaComponents<T> e = munjiza_strains(munjiza_stretches(point), s_v.strain).e;
         return {constants.M_v * e.v, constants.M_alpha * e.alpha, constants.M_beta * e.beta, constants.M_psi * e.psi};
+    }
+
+    /// Cauchy stress across the plane in plane strain, Pa  [FORMULATION 3]. Only for output.
+    /// @param q  average of the composite
+    template <class T, class V>
+    T stress_across(const PointKinematics<T>& point, const Volume<T>& s_v, const Memory<V>&, const T& q) const {
+        const T m_z = M_z * munjiza_strains(munjiza_stretches(point), s_v.strain).e.alpha;
+        return q + across_map<direct>(point, m_z);
     }
 
     /// @param q  average of the composite

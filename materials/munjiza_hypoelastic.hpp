@@ -4,6 +4,7 @@
 
 #include "base/functions.hpp"
 #include "materials/munjiza_stress.hpp"
+#include "materials/out_of_plane.hpp"
 #include "materials/work_meter.hpp"
 
 namespace gneiss {
@@ -88,6 +89,7 @@ struct MunjizaHypoelastic {
 
     MunjizaConstants constants;
     Stiffening stiffening;
+    double M_z = 0;  ///< Pa, transversely_isotropic_across(); for the stress across the plane alone
 
     /// With constant moduli a step ends at m = m0 + M (e - e0), whatever m0 and e0 are. `conjugate` makes of it forces
     ///
@@ -123,6 +125,15 @@ struct MunjizaHypoelastic {
     MunjizaComponents<T> munjiza_stress(const PointKinematics<T>& point, const Volume<T>& s_v,
                                         const Memory<V>& accepted) const {
         return grown(munjiza_strains(munjiza_stretches(point), s_v.strain).e, accepted);
+    }
+
+    /// Cauchy stress across the plane in plane strain, Pa  [FORMULATION 4]. Only for output.
+    /// @param q  average of the composite
+    template <class T, class V>
+    T stress_across(const PointKinematics<T>& point, const Volume<T>& s_v, const Memory<V>& accepted,
+                    const T& q) const {
+        if (M_z == 0) return q;
+        return q + across_map<direct>(point, T(M_z / constants.M_alpha * munjiza_stress(point, s_v, accepted).alpha));
     }
 
     template <class T, class V>

@@ -75,6 +75,15 @@ struct NeoHookean {
                (0.5 * lambda) * (log_volume * log_volume);
     }
 
+    /// Cauchy stress across the plane, Pa: (mu (s_z^2 - 1) + lambda ln J)/J, which is lambda ln s_v/s_v in plane strain
+    /// and, by the choice of s_z, nothing in plane stress.
+    template <class T, class V>
+    T stress_across(const PointKinematics<T>&, const Volume<T>& volume, const Memory<V>&, const T&) const {
+        const T y = volume.log_thickness;
+        return (mu * exponential_minus_1(T(2.0 * y)) + lambda * (volume.log_area + y)) * volume.inverse *
+               exponential(T(-y));
+    }
+
     template <class T, class V>
     Memory<T> update(const PointKinematics<T>&, const Volume<T>&, const PointStress<T>&, const T&,
                      const Memory<V>&) const {
