@@ -22,6 +22,7 @@ void Bathe::Options::validate() const {
     if (!(dt > 0 && std::isfinite(dt)))
         problems.push_back({"integrator.dt", fmt::format("given {} s, must be > 0 s", dt)});
     newton.check(problems);
+    InterfaceBalance::check(interface_tolerance, problems);
     if (!problems.empty()) throw InputError(problems);
 }
 
@@ -85,7 +86,7 @@ StepReport Bathe::advance(const SemiDiscrete& system, State& state, double t_sto
             const double made = interfaces_.active() ? excess(system, state, report.dt) : 0;
             if (made <= 1) break;
             limit = report.dt / 2;
-            report.rejected = InterfaceBalance::reason(made);
+            report.rejected = interfaces_.reason(made);
         } catch (const RecoverableError& failure) {
             newton_.drop_matrix();
             limit = report.dt / 2;

@@ -28,6 +28,7 @@ public:
         double rho_inf = scheme_defaults::rho_inf;  ///< spectral radius at infinite frequency, [0, 1]
         double dt = 0;                              ///< step, s, > 0
         StageNewton::Options newton = {};
+        double interface_tolerance = scheme_defaults::interface_tolerance;  ///< InterfaceBalance, (0, 1]
 
         /// @throws InputError
         void validate() const;
@@ -73,7 +74,7 @@ private:
     double split_, q0_, q1_, q2_;
     StageNewton newton_;
     PrescribedMotion motion_;
-    InterfaceBalance interfaces_;
+    InterfaceBalance interfaces_{options_.interface_tolerance};
     double dt_ = 0;     ///< longest that the next step may be, s
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     State next_, middle_;

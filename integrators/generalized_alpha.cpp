@@ -54,6 +54,7 @@ void GeneralizedAlpha::Options::validate() const {
                      "gamma = 1/2 - alpha_m + alpha_f = {}",
                      rtol, gamma, gamma - first_order));
     scales.check(problems);
+    InterfaceBalance::check(interface_tolerance, problems);
     need(longest >= 0 && std::isfinite(longest), "longest", fmt::format("given {} s, must be >= 0 s", longest));
     newton().check(problems);
     if (!problems.empty()) throw InputError(problems);
@@ -134,7 +135,7 @@ StepReport GeneralizedAlpha::advance(const SemiDiscrete& system, State& state, d
                 break;
             }
             if (made > 1) {
-                why = InterfaceBalance::reason(made);
+                why = interfaces_.reason(made);
                 limit = dt / 2;
             } else {
                 why = "the error is too large";

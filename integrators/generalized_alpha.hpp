@@ -49,6 +49,7 @@ public:
         double rtol = 0;     ///< local error of displacement over its scale, root mean square, [0, 0.1]; 0: fixed steps
         double longest = 0;  ///< longest step with rtol, s; 0: no limit
         ProblemScales::Given scales;
+        double interface_tolerance = scheme_defaults::interface_tolerance;  ///< InterfaceBalance, (0, 1]
         double tolerance = scheme_defaults::tolerance;  ///< Newton: out of balance over the largest force, (0, 0.01]
         int most_iterations = scheme_defaults::newton_iterations;  ///< of Newton's method in a step, >= 1
         LinearSolverOptions solver;                                ///< of the linear systems
@@ -103,7 +104,7 @@ private:
     StageNewton newton_;
     PrescribedMotion motion_;
     ProblemScales scales_;
-    InterfaceBalance interfaces_;
+    InterfaceBalance interfaces_{options_.interface_tolerance};
     double dt_ = 0;     ///< next step, s: the longest that it may be
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     State next_, stage_;

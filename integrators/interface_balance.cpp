@@ -18,10 +18,16 @@ double dissipated_in(const PathEnergies& path) { return path.friction + path.fra
 
 }  // namespace
 
+void InterfaceBalance::check(double tolerance, std::vector<Problem>& problems) {
+    if (!(tolerance > 0 && tolerance <= 1))
+        problems.push_back({"integrator.interface_tolerance", fmt::format("given {}, must be in (0, 1]", tolerance)});
+}
+
 void InterfaceBalance::bind(const SemiDiscrete& system) {
     // both have a history, or are searched for
-    active_ = system.layout().n_history > 0 ||
-              std::ranges::any_of(system.events(), [](const auto& event) { return event->watches(); });
+    active_ =
+        tolerance_ < 1 && (system.layout().n_history > 0 ||
+                           std::ranges::any_of(system.events(), [](const auto& event) { return event->watches(); }));
 }
 
 void InterfaceBalance::start(const SemiDiscrete& system, const State& state, double omega) {
@@ -56,11 +62,11 @@ double InterfaceBalance::excess(const SemiDiscrete& system, double work, const S
         std::max({largest_, synchronised_kinetic_energy(system, to.v, partial_), stored_next_, dissipated_in(from.path),
                   std::abs(from.path.external_work), std::abs(from.path.support_work)});
     if (to.t - from.t <= resolved_) return 0;
-    return made == 0 ? 0 : std::abs(made) / (largest_part * largest_next_);
+    return made == 0 ? 0 : std::abs(made) / (tolerance_ * largest_next_);
 }
 
-std::string InterfaceBalance::reason(double excess) {
-    return fmt::format("joints and contact would make or lose {:.2g} of the largest energy", excess * largest_part);
+std::string InterfaceBalance::reason(double excess) const {
+    return fmt::format("joints and contact would make or lose {:.2g} of the largest energy", excess * tolerance_);
 }
 
 }  // namespace gneiss

@@ -27,15 +27,18 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "system/integrator.hpp"
 
 namespace gneiss {
 
 class InterfaceBalance {
 public:
-    /// Most that a step may make or lose, over the largest energy of the run so far: a hundred kinks at this bound stay
-    /// within the thousandth to which cracks and contact balance.
-    static constexpr double largest_part = 1e-5;
+    /// @param tolerance  most that a step may make or lose, over the largest energy of the run so far, (0, 1]; 1: any
+    /// step will do
+    explicit InterfaceBalance(double tolerance) : tolerance_(tolerance) {}
+    /// Adds what is wrong with a tolerance, under "integrator.".
+    static void check(double tolerance, std::vector<Problem>& problems);
 
     void bind(const SemiDiscrete& system);
     /// Whether there may be joints or contact: the members below are not to be called otherwise.
@@ -56,7 +59,7 @@ public:
     /// @param to    its end, with history and path
     double excess(const SemiDiscrete& system, double work, const State& from, const State& to);
     /// What a report says of a step that is taken again.
-    static std::string reason(double excess);
+    std::string reason(double excess) const;
     /// Takes up the end of the step that excess() was last asked about.
     void accept() {
         largest_ = largest_next_;
@@ -69,6 +72,7 @@ public:
     std::size_t evaluations() const { return evaluations_; }
 
 private:
+    double tolerance_;
     bool active_ = false;
     double largest_ = 0, largest_next_ = 0, stored_ = 0, stored_next_ = 0;  ///< J
     double resolved_ = 0;                                                   ///< steps up to this are not judged, s

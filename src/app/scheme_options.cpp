@@ -60,6 +60,7 @@ GeneralizedAlpha::Options options_of<GeneralizedAlpha>(const IntegratorOptions& 
     options.rtol = o.adaptive ? o.rtol : 0;
     options.longest = o.longest;
     options.scales = scales(o);
+    options.interface_tolerance = o.interface_tolerance;
     options.tolerance = o.tolerance;
     options.most_iterations = newton_iterations(o);
     options.solver = options_of<LinearSolver>(o);
@@ -68,7 +69,7 @@ GeneralizedAlpha::Options options_of<GeneralizedAlpha>(const IntegratorOptions& 
 
 template <>
 Bathe::Options options_of<Bathe>(const IntegratorOptions& o) {
-    return {o.rho_inf, o.dt, {o.tolerance, newton_iterations(o), options_of<LinearSolver>(o)}};
+    return {o.rho_inf, o.dt, {o.tolerance, newton_iterations(o), options_of<LinearSolver>(o)}, o.interface_tolerance};
 }
 
 template <>

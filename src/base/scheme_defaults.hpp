@@ -14,6 +14,10 @@ inline constexpr double rho_inf = 0.8;             ///< of generalized_alpha and
 inline constexpr double beta = 0.25, gamma = 0.5;  ///< of newmark: mean acceleration
 inline constexpr double alpha = 0.1;               ///< of hht_alpha
 
+/// Of generalized_alpha, newmark, hht_alpha and bathe: most energy that a step may make or lose at joints and contact,
+/// over the largest of the run. A hundred kinks at this bound stay within the thousandth to which cracks balance.
+inline constexpr double interface_tolerance = 1e-5;
+
 inline constexpr double rtol = 1e-6;                          ///< of steps from an error estimate
 inline constexpr bool stability_detection = false;            ///< of cvode
 inline constexpr const char* table = "dormand_prince_7_4_5";  ///< of arkode

@@ -240,7 +240,8 @@ struct IntegratorOptions {
     // generalized_alpha, newmark, hht_alpha: GeneralizedAlpha::Options; bathe, Bathe::Options, has rho_inf too
     double rho_inf = scheme_defaults::rho_inf, beta = scheme_defaults::beta, gamma = scheme_defaults::gamma,
            alpha = scheme_defaults::alpha;
-    bool adaptive = false;  ///< to rtol
+    bool adaptive = false;                                              ///< to rtol
+    double interface_tolerance = scheme_defaults::interface_tolerance;  ///< of these and bathe
 
     // cvode, arkode, mri, ida: Cvode::Options, Arkode::Options, Mri::Options, Ida::Options
     bool adams = false, functional = false, stability_detection = scheme_defaults::stability_detection;

@@ -39,7 +39,7 @@ def splitting() -> Deck:
 ARM, NOTCH, LENGTH, CELL = 10e-3, 20e-3, 50e-3, 5e-3    # m
 OPENING, OPENING_TIME = 4e-4, 1.5e-4                  # m of either arm, s
 BEAM_TOLERANCE = 1e-9
-CRACKING = (1.07e-4, OPENING_TIME)  # s, when sides open
+CRACKING = (3.6e-5, OPENING_TIME)  # s, when sides open
 AT_REST = {"displacement_scale": OPENING, "velocity_scale": OPENING / OPENING_TIME}
 
 

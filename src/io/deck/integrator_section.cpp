@@ -107,6 +107,13 @@ const Section<IntegratorOptions>& integrator_section() {
                 {.range = closed(0, 1.0 / 3),
                  .only_for = {{"type", {"hht_alpha"}}},
                  .meaning = "weight of the last state in the stage at which forces are taken; 0: no damping"}),
+         number(
+             "interface_tolerance", &I::interface_tolerance,
+             {.range = half_open(0, 1),
+              .only_for = {{"type", {"generalized_alpha", "newmark", "hht_alpha", "bathe"}}},
+              .meaning = "most energy that a step may make or lose at joints and contact, over the largest of the run; "
+                         "beyond, it is taken again, shorter. Slow runs that are to be damped, `rho_inf` = 0, are well "
+                         "served by 1e-3; 1: steps are never taken again for this"}),
          boolean("adaptive", &I::adaptive, {.only_for = alphas, .meaning = "steps from an error estimate, to `rtol`"}),
          choice("method", &I::adams, multistep_methods, {.only_for = cvode, .meaning = "family of formulas"}),
          choice("iteration", &I::functional, iterations,

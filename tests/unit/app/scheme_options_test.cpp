@@ -40,6 +40,16 @@ TEST(NewtonOptions, AnyScheme_TakesAsManyIterations) {
     }
 }
 
+TEST(InterfaceTolerance, AnySchemeThatJudgesItsSteps_HasIt) {
+    for (const char* type : {"generalized_alpha", "newmark", "hht_alpha"}) {
+        IntegratorOptions deck;
+        deck.type = type;
+        deck.interface_tolerance = 3e-3;
+        EXPECT_EQ(options_of<GeneralizedAlpha>(deck).interface_tolerance, 3e-3);
+        EXPECT_EQ(options_of<Bathe>(deck).interface_tolerance, 3e-3);
+    }
+}
+
 TEST(ContactDefaults, AreThoseOfADeck) {
     const Contact::Options own;
     const ContactOptions deck;

@@ -88,7 +88,8 @@ TEST(Bathe, OneForceThatFails_WhereverInTheStep_HalvesIt) {
 }
 
 TEST(Bathe, Options_AllProblemsAtOnce) {
-    Bathe::Options options{.rho_inf = -0.1, .dt = 0, .newton = {.tolerance = 0, .most_iterations = 0}};
+    Bathe::Options options{
+        .rho_inf = -0.1, .dt = 0, .newton = {.tolerance = 0, .most_iterations = 0}, .interface_tolerance = 0};
     try {
         Bathe integrator(options);
         FAIL();
@@ -96,7 +97,7 @@ TEST(Bathe, Options_AllProblemsAtOnce) {
         std::vector<std::string> keys;
         for (const Problem& problem : error.problems()) keys.push_back(problem.where);
         EXPECT_THAT(keys, UnorderedElementsAre("integrator.rho_inf", "integrator.dt", "integrator.tolerance",
-                                               "integrator.most_iterations"));
+                                               "integrator.most_iterations", "integrator.interface_tolerance"));
     }
 }
 

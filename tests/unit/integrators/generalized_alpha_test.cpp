@@ -141,15 +141,17 @@ TEST(GeneralizedAlpha, Options_AllProblemsAtOnce) {
     options.longest = -1;
     options.tolerance = 0;
     options.most_iterations = 0;
+    options.interface_tolerance = 1.5;
     try {
         GeneralizedAlpha integrator(options);
         FAIL();
     } catch (const InputError& error) {
         std::vector<std::string> keys;
         for (const Problem& problem : error.problems()) keys.push_back(problem.where);
-        EXPECT_THAT(keys, UnorderedElementsAre("integrator.alpha", "integrator.gamma", "integrator.beta",
-                                               "integrator.dt", "integrator.dt", "integrator.longest",
-                                               "integrator.tolerance", "integrator.most_iterations"));
+        EXPECT_THAT(keys,
+                    UnorderedElementsAre("integrator.alpha", "integrator.gamma", "integrator.beta", "integrator.dt",
+                                         "integrator.dt", "integrator.longest", "integrator.interface_tolerance",
+                                         "integrator.tolerance", "integrator.most_iterations"));
     }
 }
 
