@@ -170,6 +170,7 @@ TEST(DeckReference, WrittenDefaults_AreTheStructsDefaults) {
         EXPECT_EQ(scheme.gamma, integrator.gamma);
         EXPECT_EQ(scheme.alpha, integrator.alpha);
         EXPECT_EQ(scheme.adaptive, integrator.adaptive);
+        EXPECT_EQ(scheme.interface_tolerance, integrator.interface_tolerance);
         EXPECT_EQ(scheme.adams, integrator.adams);
         EXPECT_EQ(scheme.functional, integrator.functional);
         EXPECT_EQ(scheme.stability_detection, integrator.stability_detection);

@@ -195,6 +195,7 @@ constants = { E = 1e9, nu = 0.25 }
 [integrator]
 type = "generalized_alpha"
 rho_inf = 0.5
+interface_tolerance = 1e-3
 adaptive = true
 rtol = 1e-5
 displacement_scale = 1e-3
