@@ -165,7 +165,7 @@ TEST_P(Kinks, AnyStepWillDo_NoneIsTakenAgain) {
     for (int n = 0; n < 60; ++n) {  // two bounces
         const StepReport step = integrator->advance(system, state, 1e9);
         EXPECT_EQ(step.n_rejected, 0u);
-        EXPECT_EQ(step.dt, dt);
+        EXPECT_NEAR(step.dt, dt, 1e-9 * dt);  // steps to the stop, far off, are equal
     }
     EXPECT_EQ(integrator->work().interactions, 0u);  // and nothing is spent on it
 }
