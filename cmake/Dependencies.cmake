@@ -1,4 +1,5 @@
-# Everything comes from packages of Debian 12 or 13 (see cmake/install_debian_packages.sh); nothing is vendored.
+# Everything comes from Debian 12 packages (see cmake/install_debian_packages.sh); nothing is vendored. What uses SUNDIALS
+# compiles against Debian 13's as well (docs/decisions/041); the whole program has not been built there.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
