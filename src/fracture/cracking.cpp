@@ -119,11 +119,12 @@ void Cracking::part(const Change& change, State& state) {
     std::ranges::sort(elements);
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     if (criterion_) {
-        criterion_->follow(elements);
+        std::vector<std::int32_t> around = elements;  // and of ends that have opened while their node holds together
         for (const SideNode& end : change.opened) {
             const InnerSide& side = parts_.inner.sides()[index(end.side)];
-            criterion_->follow(std::array{side.left.element, side.right.element});
+            around.insert(around.end(), {side.left.element, side.right.element});
         }
+        criterion_->follow(around);
     }
     std::optional<SolidSystem::Surroundings> surroundings;
     if (parts_.surroundings && named(copies)) surroundings = parts_.surroundings(parts_.mesh);

@@ -43,14 +43,15 @@ void ElementResponse::find(std::size_t pack) {
     seen_[pack] = look_;
 }
 
-void ElementResponse::find(std::span<const std::size_t> packs) {
+void ElementResponse::find_wanted() {
     constexpr std::ptrdiff_t range = 64;  // some microseconds
     parallel_ranges(
-        packs.size(),
+        wanted_.size(),
         [&](std::size_t first, std::size_t last) {
-            for (const std::size_t pack : packs.subspan(first, last - first)) find(pack);
+            for (std::size_t i = first; i < last; ++i) find(wanted_[i]);
         },
         range);
+    wanted_.clear();
 }
 
 std::size_t ElementResponse::stress_place(const ElementSide& side, std::size_t part) const {
@@ -70,8 +71,9 @@ std::array<double, 3> ElementResponse::stress(const ElementSide& side, std::size
 std::array<double, 3> ElementResponse::mean_stress(std::int32_t side, std::size_t part) {
     const InnerSide& inner = inner_.sides()[index(side)];
     const std::size_t n_parts = side_nodes(mesh_.kind, 0).size() - 1;
-    const std::array<double, 3> left = stress(inner.left, part), right = stress(inner.right, n_parts - 1 - part);
-    return {0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1]), 0.5 * (left[2] + right[2])};
+    require(inner.left.element);
+    require(inner.right.element);
+    return mean_stress_at(stress_place(inner.left, part), stress_place(inner.right, n_parts - 1 - part));
 }
 
 double ElementResponse::mass(std::int32_t element, int node) {

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/inner_sides.hpp"
@@ -38,8 +38,16 @@ public:
     }
     std::size_t stress_place(const ElementSide& side, std::size_t part) const;
     std::size_t force_place(std::int32_t element, int node) const;
-    /// Finds what stands in these packs, in parallel. @param packs  each once
-    void find(std::span<const std::size_t> packs);
+    /// What stands in a pack is to be found by the next find_wanted(), and not asked for before.
+    void want(std::size_t pack) {
+        if (std::exchange(seen_[pack], look_) != look_) wanted_.push_back(pack);
+    }
+    /// In parallel.
+    void find_wanted();
+    std::array<double, 3> mean_stress_at(std::size_t left, std::size_t right) const {
+        const std::array<double, 3> a = stress_at(left), b = stress_at(right);
+        return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+    }
     std::array<double, 3> stress_at(std::size_t place) const {
         return {stresses_[place], stresses_[place + pack_width], stresses_[place + 2 * pack_width]};
     }
@@ -65,6 +73,7 @@ private:
     std::size_t n_sub_ = 0, n_nodes_ = 0;  ///< sub-triangles, nodes of an element
     std::vector<std::size_t> first_pack_;  ///< of each block, and the number of packs; empty: nothing is laid out yet
     std::vector<std::int64_t> seen_;       ///< look of each pack's answers
+    std::vector<std::size_t> wanted_;      ///< packs
     std::vector<double> stresses_;         ///< shape (packs, sub-triangles, 3, lanes)
     std::vector<double> forces_;           ///< shape (packs, nodes, 2, lanes)
     std::vector<double> masses_;           ///< shape (elements, nodes); empty: not asked for yet

@@ -25,7 +25,6 @@ void NodalCriterion::find_candidates(const State& state) {
     open_fan_.resize(n_nodes, 0);
     held_.resize(n_nodes, 0);
     candidates_.clear();
-    packs_.clear();
     const auto n = static_cast<std::size_t>(parts_.mesh.nodes_per_element());
     for_each_element_beyond(state, [&](std::int32_t element) {
         for (const std::int32_t node : std::span(parts_.mesh.element(index(element)), n)) {
@@ -35,10 +34,7 @@ void NodalCriterion::find_candidates(const State& state) {
             if (fan.interfaces.empty()) continue;
             candidates_.push_back(node);
             open_fan_[index(node)] = !fan.closed();
-            for (const FanTable::Corner& corner : fan.corners) {
-                if (corner.pack >= asked_.size()) asked_.resize(corner.pack + 1, -1);
-                if (std::exchange(asked_[corner.pack], look_) != look_) packs_.push_back(corner.pack);
-            }
+            for (const FanTable::Corner& corner : fan.corners) response_.want(corner.pack);
         }
     });
 }
@@ -78,8 +74,7 @@ void NodalCriterion::look_at_node(const State& state, std::int32_t node, Found& 
         const std::size_t a = 2 * index(at.a), b = 2 * index(at.b);
         const Vec2<double> now{at.edge.x + (state.u[b] - state.u[a]), at.edge.y + (state.u[b + 1] - state.u[a + 1])};
         const Vec2<double> along = (1 / std::sqrt(dot(now, now))) * now, normal{along.y, -along.x};
-        const std::array<double, 3> left = response_.stress_at(at.left), right = response_.stress_at(at.right);
-        const double xx = 0.5 * (left[0] + right[0]), yy = 0.5 * (left[1] + right[1]), xy = 0.5 * (left[2] + right[2]);
+        const auto [xx, yy, xy] = response_.mean_stress_at(at.left, at.right);
         found.interfaces.push_back({at.weight,
                                     normal,
                                     along,
@@ -102,7 +97,7 @@ void NodalCriterion::look_at_node(const State& state, std::int32_t node, Found& 
 
 auto NodalCriterion::look(const State& state) -> std::span<Found> {
     find_candidates(state);
-    response_.find(packs_);
+    response_.find_wanted();
     find_corner_forces(state);
     const auto constraints = parts_.solid.constraints();
     for (const Constraint& constraint : constraints)

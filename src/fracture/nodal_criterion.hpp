@@ -41,8 +41,6 @@ private:
     std::vector<std::int64_t> looked_at_;  ///< per node
     std::vector<std::int32_t> candidates_;
     FanTable fans_;
-    std::vector<std::size_t> packs_;          ///< of the elements around the candidates
-    std::vector<std::int64_t> asked_;         ///< per pack, look
     std::vector<std::uint8_t> open_fan_;      ///< per node: a candidate with an open fan
     std::vector<std::uint8_t> held_;          ///< per node, bit c: a support moves its component c
     std::vector<CornerForce> corner_forces_;  ///< on edges and faces at nodes with open fans, by ascending node
