@@ -13,6 +13,17 @@
 #include "system/load_pace.hpp"
 
 namespace gneiss {
+namespace {
+
+/// Whether y is that of a state. SUNDIALS works in y() while a step is under way.
+bool is_packed(const FirstOrderForm& form, const State& state, std::span<const double> y) {
+    const std::size_t n = form.n_free();
+    for (std::size_t i = 0; i < n; ++i)
+        if (y[i] != state.u[form.free()[i]] || y[n + i] != state.v[form.free()[i]]) return false;
+    return std::ranges::equal(y.subspan(2 * n), state.z);
+}
+
+}  // namespace
 
 void SundialsOde::Options::check(std::vector<Problem>& problems) const {
     const auto need = [&](bool fine, const char* key, const std::string& message) {
@@ -136,6 +147,7 @@ void SundialsOde::finish_step(const SemiDiscrete& system, const State& state) {
         ++counts_.rates;  // what is remembered is the scheme's own
     }
     add_path_energies(system, state, before_, next_, after_);
+    start_counted_ = true;
 }
 
 void SundialsOde::update_history(const SemiDiscrete& system, const State& from, State& to, Reactions& reactions) {
@@ -211,6 +223,7 @@ void SundialsOde::add_path_energies(const SemiDiscrete& system, const State& fro
     if (supports_move) {
         find_reactions(system, from, from, before);
         find_reactions(system, from, middle_, middle_reactions_);
+        if (!after.known) take_reactions(system, to, after);
         find_reactions(system, from, to, after);
     }
     system.add_path_energies(from, to);
@@ -258,6 +271,11 @@ WorkCounts SundialsOde::work() const {
             .starts = all.starts};
 }
 
+bool SundialsOde::of_dense_output_alone(double t) const {
+    constexpr double round_off = 1e-9;  // of a step: the solver's time, or that of the stop that it was to reach
+    return in_dense_output_ && std::abs(t - next_.t) > round_off * std::abs(next_.t - accepted_->t);
+}
+
 void SundialsOde::count(double t, std::span<const double> y, FirstOrderForm::Part part) {
     using Part = FirstOrderForm::Part;
     if (part == Part::external) return;
@@ -265,12 +283,12 @@ void SundialsOde::count(double t, std::span<const double> y, FirstOrderForm::Par
         ++counts_.interaction_rates;
         return;
     }
-    if (in_dense_output_) {
+    if (of_dense_output_alone(t)) {
         ++counts_.balance;
         return;
     }
-    const bool first = !std::exchange(start_counted_, true);
-    const bool at_start = first && t == accepted_->t && std::ranges::equal(y, values_of(y_.get()));
+    const bool at_start = !start_counted_ && t == accepted_->t && is_packed(form_, *accepted_, y);
+    start_counted_ = start_counted_ || at_start;
     ++(at_start ? counts_.starts : counts_.rates);
 }
 
@@ -279,7 +297,7 @@ int SundialsOde::rate(double t, N_Vector y, FirstOrderForm::Part part, N_Vector 
         if (form_.repeat(*accepted_, t, values_of(y), part, values_of(dydt))) return;
         count(t, values_of(y), part);
         const State& from = path_ && part == FirstOrderForm::Part::interactions ? *path_ : *accepted_;
-        form_.rate(*system_, from, t, values_of(y), part, values_of(dydt), !in_dense_output_);
+        form_.rate(*system_, from, t, values_of(y), part, values_of(dydt), !of_dense_output_alone(t));
     });
 }
 

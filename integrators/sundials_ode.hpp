@@ -123,6 +123,9 @@ protected:
 private:
     void allocate(const SemiDiscrete& system);
     void begin(const SemiDiscrete& system, const State& state);
+    /// Whether dense output asks for the rates at t, and nobody else will. Those at the end of a step are not: ARKODE
+    /// from 6.7 on leaves them to whoever asks first, and begins the next step with them.
+    bool of_dense_output_alone(double t) const;
     /// Counts an evaluation of a part of F(t, y) that a scheme asks for.
     void count(double t, std::span<const double> y, FirstOrderForm::Part part);
     void finish_step(const SemiDiscrete& system, const State& state);
@@ -158,7 +161,7 @@ private:
     double omega_ = 0;  ///< upper bound of the natural frequencies at the start of the run, rad/s
     std::vector<double> f_, z_;
     Reactions before_, middle_reactions_, after_;  ///< where the last step began, in its middle, where it ended
-    bool start_counted_ = false;                   ///< the scheme has evaluated F since it started
+    bool start_counted_ = false;                   ///< F where the scheme started, or its first step has ended
     bool in_dense_output_ = false;
     CallbackGuard guard_;
     Counts counts_;

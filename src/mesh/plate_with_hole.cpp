@@ -148,8 +148,9 @@ MeshDraft free_plate_with_hole(const MeshOptions& options) {
         gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
         constexpr int frontal_delaunay = 6;  // the most regular triangles of Gmsh's algorithms
         gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
+        // z, and in newer versions of Gmsh the size there would be otherwise
         gmsh::model::mesh::setSizeCallback(
-            [&options](int, int, double x, double y, double) { return plate_edge_length(options, std::hypot(x, y)); });
+            [&options](int, int, double x, double y, auto...) { return plate_edge_length(options, std::hypot(x, y)); });
         gmsh::model::mesh::generate(2);
         gmsh::model::mesh::removeSizeCallback();
         return draft_of_current_model("mesh");

@@ -115,12 +115,17 @@ TEST_P(ExplicitTable, AStep_EvaluatesItsStages) {
     const RungeKuttaTable& name = *GetParam();
     const std::unique_ptr<ARKodeButcherTableMem, void (*)(ARKodeButcherTable)> table(
         ARKodeButcherTable_LoadERK(static_cast<ARKODE_ERKTableID>(name.explicit_id)), ARKodeButcherTable_Free);
-    // ARKODE evaluates the first stage anew where the last one was the end of the step already: nothing is saved by it
     const auto stages = static_cast<std::size_t>(table->stages);
     std::vector<std::size_t> expected(n_steps, stages);
-    // the first stage of all is the start's; where the last node is not the end, ARKODE evaluates there for the next
-    // step
+#if GNEISS_SUNDIALS_HAS_LAZY_RATES
+    // the first stage of all is the start's; what a step ends with begins the next one, and is evaluated unless it was
+    // the last stage
+    if (ARKodeButcherTable_IsStifflyAccurate(table.get())) std::ranges::fill(expected, stages - 1);
+#else
+    // ARKODE evaluates the first stage anew where the last node was the end of the step: nothing is saved by it. The
+    // first stage of all is the start's; where the last node is not the end, ARKODE evaluates there for the next step
     if (table->c[table->stages - 1] == 1) --expected.front();
+#endif
     const auto model_of = [](const std::string& which) {
         return which == "free" ? free_nodes() : with_supports(which == "moving");
     };
@@ -146,7 +151,8 @@ TEST(EvaluationCounts, KnownTables_HaveTheStagesOfTheirPapers) {
         return evaluations_of(*arkode(*table), with_supports(false)).of_step.back();
     };
     EXPECT_EQ(of_step("heun_euler_2_1_2"), 2u);
-    EXPECT_EQ(of_step("dormand_prince_7_4_5"), 7u);
+    EXPECT_EQ(of_step("dormand_prince_7_4_5"),
+              GNEISS_SUNDIALS_HAS_LAZY_RATES ? 6u : 7u);  // the last one is the next first
     EXPECT_EQ(of_step("fehlberg_13_7_8"), 13u);
 }
 
