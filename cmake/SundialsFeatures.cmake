@@ -14,7 +14,7 @@ set(CMAKE_REQUIRED_INCLUDES "${GNEISS_SUNDIALS_HEADERS}" ${MPI_C_INCLUDE_DIRS})
 check_cxx_symbol_exists(KINSetErrFile "cstdio;kinsol/kinsol.h" GNEISS_SUNDIALS_HAS_SET_ERR_FILE)
 check_cxx_symbol_exists(SUNContext_ClearErrHandlers "cstdio;sundials/sundials_context.h" GNEISS_SUNDIALS_HAS_ERR_HANDLERS)
 check_cxx_symbol_exists(ARKodeEvolve "cstdio;arkode/arkode.h" GNEISS_SUNDIALS_HAS_COMMON_ARKODE)
-# a test asks: whether ARKODE evaluates rates at the end of a step when somebody wants them, or always
+# mri and a test ask: whether ARKODE evaluates rates at the ends of steps when somebody wants them, or always
 check_cxx_symbol_exists(ARKodeButcherTable_IsStifflyAccurate "cstdio;arkode/arkode_butcher.h" GNEISS_SUNDIALS_HAS_LAZY_RATES)
 unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
 cmake_pop_check_state()

@@ -96,6 +96,12 @@ void Mri::create(double t) {
     check(GNEISS_ARKODE(MRIStep, SetUserData)(slow, this), "MRIStepSetUserData");
     const OwnedCoupling coupling(MRIStepCoupling_LoadTable(static_cast<ARKODE_MRITableID>(table_.id)));
     check(MRIStepSetCoupling(slow, coupling.get()), "MRIStepSetCoupling");
+#if GNEISS_SUNDIALS_HAS_LAZY_RATES
+    // up to 7.1 the slope at the start of the first step is not evaluated, and the cubic of tables of order 4 is drawn
+    // with what stands in memory: a parabola does without it
+    constexpr int parabola = 2;
+    check(GNEISS_ARKODE(MRIStep, SetInterpolantDegree)(slow, parabola), "MRIStepSetInterpolantDegree");
+#endif
 }
 
 void Mri::destroy() {

@@ -115,6 +115,31 @@ TEST(Mri, StiffInteractions_LoadsAndDamping_BalanceAgainstTheEnergy) {
     }
 }
 
+TEST(Mri, WithinTheFirstStepAfterAStart_StatesAreAsAccurateAsInLaterOnes) {
+    test::OscillatorModel model = test::two_nodes();
+    model.interactions = 0.3 * model.stiffness;
+    model.load = test::smooth_load;
+    const test::Oscillator system(model);
+    for (const MultirateTable& table : multirate_tables()) {
+        Mri mri(with(table.name, 0.025, 1e-10));
+        State state = system.initial_state(), at;
+        std::vector<double> reactions;
+        mri.start(system, state, StartReason::fresh);
+        const auto error_within = [&] {
+            const double start = state.t;
+            mri.advance(system, state, 1);
+            mri.state_within(system, 0.5 * (start + state.t), at, reactions);
+            return test::distance(at, runge_kutta(system, at.t, test::oscillator_reference_step));
+        };
+        const double of_first = error_within();
+        const double later = std::max(error_within(), error_within());
+        mri.forget(system, state);  // as after an event
+        const double of_next_first = error_within();
+        EXPECT_LT(of_first, 4 * later) << table.name;  // derivatives of the motion vary by less
+        EXPECT_LT(of_next_first, 4 * later) << table.name;
+    }
+}
+
 TEST(Mri, ForceEvaluations_AreThoseOfTheSlowPart) {
     const test::Oscillator system(stiff_contact());
     Mri mri(with("mri_gark_erk33a", 0.025, 1e-8));
