@@ -5,7 +5,7 @@
 # usage: tests/fresh_machine.sh bookworm|trixie [--keep] [--folder DIR] [COMMAND...]
 #   --keep         leave the system where it is made, and say how to enter it
 #   --folder DIR   make it in DIR/gneiss-SUITE (default: $TMPDIR or /tmp); about 8 GB
-#   COMMAND...     what to run in the tree instead of README's two, one argument each: 'tests/run.sh -- -R Deck'
+#   COMMAND...     what to run in the tree instead of README's two, one argument each: 'tests/run.sh --filter Deck*'
 #
 # The mirror, its keys and a proxy are those of this machine's own apt. The system shares nothing with this machine but
 # its processors and its network (/etc/hosts, /etc/resolv.conf): ccache there is empty. What is not committed is not

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Sets up what is missing, builds everything and runs all tests. Needs nothing but Debian 12 and this folder.
 #
-# usage: tests/run.sh [--preset NAME] [--jobs N] [-- CTEST_OPTIONS...]
+# usage: tests/run.sh [--preset NAME] [--jobs N] [--filter PATTERN] [-- CTEST_OPTIONS...]
 #   --preset NAME   a preset of CMakePresets.json: release (default, or $GNEISS_PRESET), release-asserts, dev (sanitizers)
 #   --jobs N        compilers and tests at once (default: number of cores)
-#   -- ...          handed to ctest, to run a part: tests/run.sh -- -R Mesh
+#   --filter PATTERN  GoogleTests whose names match, and nothing else: tests/run.sh --filter '*Cavity*'
+#   -- ...          handed to ctest, to run whole executables: tests/run.sh -- -R mesh
 #
 # The last line is "N passed, N failed". Exit status: 0 if every test passed and there was at least one, 2 for wrong use,
 # 1 otherwise.
@@ -17,9 +18,11 @@ wrong_use() { printf 'tests/run.sh: %s\n' "$1" >&2; usage >&2; exit 2; }
 
 preset=${GNEISS_PRESET:-release}
 jobs=$(nproc)
+filter=''
 while [[ $# -gt 0 ]]; do
     case $1 in
         --preset) [[ $# -ge 2 ]] || wrong_use "--preset needs a name"; preset=$2; shift 2 ;;
+        --filter) [[ $# -ge 2 ]] || wrong_use "--filter needs a pattern"; filter=$2; shift 2 ;;
         --jobs) [[ ${2-} =~ ^[1-9][0-9]*$ ]] || wrong_use "--jobs needs a number"; jobs=$2; shift 2 ;;
         --help | -h) usage; exit 0 ;;
         --) shift; break ;;
@@ -53,31 +56,19 @@ NINJA_STATUS='      [%f/%t, %e s] ' \
 took
 
 step 4/4 "testing, $jobs at once: some minutes"
-report=$PWD/build/$preset/tests.xml
-rm -f "$report"
+report=$PWD/build/$preset/tests.xml reports=$PWD/build/$preset/reports
+rm -rf "$report" "$reports"
+mkdir "$reports"
+if [[ -n $filter ]]; then
+    export GTEST_FILTER=$filter
+    set -- -L googletest "$@"
+fi
 ctest_status=0
 ctest --preset "$preset" -j "$jobs" --output-junit "$report" "$@" </dev/null || ctest_status=$?
 took
 
 [[ -s $report ]] || fail "no test ran (ctest's exit status: $ctest_status)"
-counts=$(/usr/bin/python3 - "$report" <<'PYTHON'
-import sys
-import xml.etree.ElementTree as xml
-
-cases = {case.get("name"): case for case in xml.parse(sys.argv[1]).iter("testcase")}
-skips = {name: case.find("skipped") for name, case in cases.items()}
-passed = [name for name, case in cases.items() if case.get("status") == "run"]
-skipped = [name for name, case in cases.items() if case.get("status") == "disabled" or
-           skips[name] is not None and "SKIP" in skips[name].get("message", "")]
-failed = [name for name in cases if name not in {*passed, *skipped}]
-print(len(passed), len(failed), len(skipped))
-for name in failed:
-    print(f"      failed:  {name}")
-for name in skipped:  # a test may say why: "skipped: REASON"
-    reasons = [line for line in cases[name].findtext("system-out", "").splitlines() if line.startswith("skipped: ")]
-    print(f"      skipped: {name}" + "".join(", " + line.removeprefix("skipped: ") for line in reasons))
-PYTHON
-)
+counts=$(/usr/bin/python3 -B tests/count_tests.py "$report" "$reports")
 read -r passed failed skipped <<<"$counts"
 sed 1d <<<"$counts"
 [[ $skipped -eq 0 ]] || printf '      %d skipped\n' "$skipped"
