@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     "src/contact": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model"],
     "src/fracture": ["src/base", "src/system", "materials", "elements", "src/mesh", "src/model"],
     "integrators": ["src/base", "src/system", "src/linear"],
-    "src/io/deck": ["src/base", "materials/elastic_constants.hpp", "src/model/formula.hpp",
+    "src/io/deck": ["src/base", "materials/elastic_constants.hpp", "materials/out_of_plane.hpp", "src/model/formula.hpp",
                     "src/model/formula_grammar.hpp", *OPTIONS],
     "src/io/output": ["src/base"],
     "src/io/report": ["src/base"],

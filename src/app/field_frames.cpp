@@ -48,16 +48,19 @@ void FieldFrames::write(const SolidSystem& system, const State& state, std::size
     std::vector<double> speed(n_nodes_), cauchy, munjiza, stretch, alpha, beta;
     for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::hypot(v[2 * i], v[2 * i + 1]);
     for (const PointFields& point : points) {
-        cauchy.insert(cauchy.end(), point.cauchy.begin(), point.cauchy.end());
+        const auto& [xx, yy, xy] = point.cauchy;
+        cauchy.insert(cauchy.end(), {xx, yy, point.cauchy_zz, xy, 0, 0});
         munjiza.insert(munjiza.end(), point.munjiza.begin(), point.munjiza.end());
         stretch.insert(stretch.end(), point.stretch.begin(), point.stretch.end());
         alpha.insert(alpha.end(), point.alpha.begin(), point.alpha.end());
         beta.insert(beta.end(), point.beta.begin(), point.beta.end());
     }
+    // VTK's order of a symmetric tensor, by which ParaView's filters know von Mises' and principal stresses
+    const std::vector<std::string> tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
     const std::vector<std::string> components{"v", "alpha", "beta", "psi"};
     series_.write(state.t, static_cast<std::int64_t>(step),
                   {{{"displacement", u, "m", 2}, {"velocity", v, "m/s", 2}, {"speed", speed, "m/s"}},
-                   {{"cauchy_stress", cauchy, "Pa", 3, {"xx", "yy", "xy"}},
+                   {{"cauchy_stress", cauchy, "Pa", 6, tensor},
                     {"munjiza_stress", munjiza, "Pa", 4, components},
                     {"stretch", stretch, "", 4, components},
                     {"axis_alpha", alpha, "", 2},

@@ -9,8 +9,8 @@
 
 namespace gneiss {
 
-/// At nodes: displacement, velocity, speed. In every sub-triangle: Cauchy and Munjiza stress, stretches, current axes;
-/// number of the element and of its region.
+/// At nodes: displacement, velocity, speed. In every sub-triangle: Cauchy stress (six components, with that across the
+/// plane) and Munjiza stress, stretches, current axes; number of the element and of its region.
 class FieldFrames {
 public:
     /// @param mesh  has to outlive the frames; they follow it

@@ -404,7 +404,7 @@ void Inspection::output() {
             rows);
 
     // columns of field_frames, before they are compressed; a state has displacement, velocity and stress
-    constexpr double per_node = 8 * (3 + 3 + 3 + 1), per_triangle = 8 * (3 + 4 + 4 + 3 + 3) + 3 * 8 + 2 * 4,
+    constexpr double per_node = 8 * (3 + 3 + 3 + 1), per_triangle = 8 * (6 + 4 + 4 + 3 + 3) + 4 * (3 + 1) + 1 + 2 * 4,
                      per_state = 8 * 4;
     const double triangles = static_cast<double>(mesh.n_elements()) * (mesh.nodes_per_element() == 3 ? 1 : 4);
     const double frame = per_node * static_cast<double>(mesh.n_nodes()) + per_triangle * triangles;

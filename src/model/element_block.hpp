@@ -29,6 +29,7 @@ struct BlockGeometry {
     bool straight = false;               ///< composites: every mid-side node is in the middle of its side
     std::vector<double> axis_angle;      ///< per element of the block: direction of alpha, rad
     std::vector<std::array<double, 3>> in_situ_stress;  ///< per element, Cauchy xx, yy, xy, Pa; empty: none
+    bool plane_stress = false;                          ///< else plane strain
     double thickness = 1;                               ///< m
     double density = 0;                                 ///< kg/m3
     ViscousStress viscosity;
@@ -37,6 +38,7 @@ struct BlockGeometry {
 /// Values at one sub-triangle, for output.
 struct PointFields {
     std::array<double, 3> cauchy;       ///< xx, yy, xy, Pa; the law's and the viscous part
+    double cauchy_zz;                   ///< across the plane, Pa; 0 in plane stress
     std::array<double, 4> munjiza;      ///< v, alpha, beta, psi, Pa; NaN for laws that know none
     std::array<double, 4> stretch;      ///< s_v (of the composite), s_alpha, s_beta, s_psi
     std::array<double, 2> alpha, beta;  ///< current axes, length = stretch

@@ -124,6 +124,7 @@ BlockGeometry block_geometry(const Mesh& mesh, const std::vector<std::int32_t>& 
         problems.push_back({"",
                             "volumetric = \"centre\" has no stored energy and goes only with law = \"munjiza\" and "
                             "stress_map = \"direct\""});
+    geometry.plane_stress = solid.plane == Plane::stress;
     geometry.thickness = solid.thickness;
     geometry.density = material.density;
     geometry.viscosity = {material.shear_viscosity, material.bulk_viscosity};

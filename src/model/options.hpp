@@ -67,6 +67,7 @@ struct MaterialOptions {
 
     /// Munjiza constants; engineering constants have been turned into them by (15)-(18).
     MunjizaConstants constants;
+    double across = 0;                          ///< M_z of transversely_isotropic_across(), Pa, in plane strain
     double shear_modulus = 0, lame_lambda = 0;  ///< neo-Hookean, Pa, three-dimensional constants
 
     AxesOptions axes;

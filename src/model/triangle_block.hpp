@@ -366,6 +366,9 @@ void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, cons
         const auto sigma = cauchy_stress(point, stress.point[s], stress.q);
         PointFields& out = fields[s];
         out.cauchy = {sigma.xx, sigma.yy, sigma.xy};
+        out.cauchy_zz = info_.plane_stress ? 0.0
+                                           : law_.stress_across(point, stress.volume, memory[s], stress.q) +
+                                                 info_.viscosity.bulk * rates[s].volume;
         out.munjiza.fill(std::numeric_limits<double>::quiet_NaN());
         if constexpr (requires { law_.munjiza_stress(point, stress.volume, memory[s]); }) {
             const auto m = law_.munjiza_stress(point, stress.volume, memory[s]);

@@ -18,7 +18,7 @@ for number, t in enumerate(series.TimestepValues):
     series.UpdatePipeline(t)
     found = found_in(servermanager.Fetch(series))
     found["timestep"] = t
-    if "ZZ" in str(found.get("names:cauchy_stress")):
+    if "cell:cauchy_stress" in found:
         mises = Calculator(Input=series, AttributeType="Cell Data", ResultArrayName="mises", Function=MISES)
         mises.UpdatePipeline(t)
         found["mises"] = vtk_to_numpy(servermanager.Fetch(mises).GetCellData().GetArray("mises"))

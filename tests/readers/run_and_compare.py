@@ -78,7 +78,7 @@ class AgainstOurReader(unittest.TestCase):
             if name in UNITS:
                 self.assertEqual(str(unit), UNITS[name], name)
         if "cauchy_stress" in part["cell"]:
-            self.assertEqual(str(part["names"]["cauchy_stress"]), "xx yy xy")
+            self.assertEqual(str(part["names"]["cauchy_stress"]), "XX YY ZZ XY YZ XZ")
             self.assertEqual(str(part["unit"]["cauchy_stress"]), "Pa")
 
 

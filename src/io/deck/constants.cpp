@@ -5,7 +5,7 @@
 
 #include "io/deck/keys.hpp"
 #include "io/deck/sections.hpp"
-#include "materials/elastic_constants.hpp"
+#include "materials/out_of_plane.hpp"
 
 namespace gneiss::deck {
 namespace {
@@ -89,21 +89,23 @@ std::optional<double> in_plane_ratio(const Value& value, const GivenConstants& g
     return std::nullopt;
 }
 
-std::optional<MunjizaConstants> resolve_transverse(const Value& value, const GivenConstants& given, Plane plane) {
+std::optional<MunjizaConstants> resolve_transverse(const Value& value, const GivenConstants& given, Plane plane,
+                                                   double& across) {
     const std::optional<double> nu = in_plane_ratio(value, given);
     const bool lacks_out_of_plane = plane == Plane::strain && !given.nu_p_alpha;
     if (lacks_out_of_plane) value.problem("`nu_p_alpha` is missing, needed in plane strain");
     if (!nu || lacks_out_of_plane) return std::nullopt;
     const TransverselyIsotropic constants{*given.E_alpha, *given.E_beta, *nu, given.nu_p_alpha.value_or(0), *given.G};
-    return plane == Plane::stress ? transversely_isotropic_plane_stress(constants)
-                                  : transversely_isotropic_plane_strain(constants);
+    if (plane == Plane::stress) return transversely_isotropic_plane_stress(constants);
+    across = transversely_isotropic_across(constants);
+    return transversely_isotropic_plane_strain(constants);
 }
 
-std::optional<MunjizaConstants> resolve_munjiza(const Value& value, const GivenConstants& given) {
+std::optional<MunjizaConstants> resolve_munjiza(const Value& value, const GivenConstants& given, double& across) {
     if (given.M_v) return MunjizaConstants{*given.M_v, *given.M_alpha, *given.M_beta, *given.M_psi};
     if (!value.findings().plane) return std::nullopt;  // reported where [solid] is read
     const Plane plane = *value.findings().plane;
-    if (given.E_alpha) return resolve_transverse(value, given, plane);
+    if (given.E_alpha) return resolve_transverse(value, given, plane, across);
     if (plane == Plane::stress) return isotropic_plane_stress(*given.E, *given.nu);
     if (!compressible(value, *given.nu, "in plane strain")) return std::nullopt;
     return isotropic_plane_strain(*given.E, *given.nu);
@@ -140,7 +142,7 @@ bool check_constants_set(const Value& value, const GivenConstants& given, LawKin
 
 bool resolve_constants(const Value& value, const GivenConstants& given, MaterialOptions& material) {
     if (material.law == LawKind::neo_hookean) return resolve_neo_hookean(value, given, material);
-    const std::optional<MunjizaConstants> constants = resolve_munjiza(value, given);
+    const std::optional<MunjizaConstants> constants = resolve_munjiza(value, given, material.across);
     if (!constants) return false;
     if (const std::string reason = inadmissibility(*constants); !reason.empty()) {
         value.problem("inadmissible, " + reason);

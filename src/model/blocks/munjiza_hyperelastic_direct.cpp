@@ -7,7 +7,8 @@ namespace gneiss {
 std::unique_ptr<ElementBlock> make_munjiza_hyperelastic_direct_block(const Mesh& mesh, BlockGeometry geometry,
                                                                      const SolidOptions& solid,
                                                                      const MaterialOptions& material) {
-    return make_triangle_block(mesh, std::move(geometry), solid, MunjizaHyperelastic<true>{material.constants});
+    return make_triangle_block(mesh, std::move(geometry), solid,
+                               MunjizaHyperelastic<true>{material.constants, material.across});
 }
 
 }  // namespace gneiss

@@ -9,7 +9,7 @@ std::unique_ptr<ElementBlock> make_munjiza_hypoelastic_direct_block(const Mesh& 
                                                                     const MaterialOptions& material) {
     const Stiffening stiffening{material.stiffening.k, material.stiffening.p_ref, material.stiffening.n};
     return make_triangle_block(mesh, std::move(geometry), solid,
-                               MunjizaHypoelastic<true>{material.constants, stiffening});
+                               MunjizaHypoelastic<true>{material.constants, stiffening, material.across});
 }
 
 }  // namespace gneiss

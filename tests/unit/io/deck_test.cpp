@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
+#include "materials/out_of_plane.hpp"
 
 namespace gneiss {
 namespace {
@@ -144,6 +145,10 @@ TEST(Deck, EngineeringConstants_FollowThePlane) {
     EXPECT_EQ(constants("stress", given + "nu_alpha_beta = 0.3 }"), transversely_isotropic_plane_stress(rock));
     EXPECT_EQ(constants("strain", given + "nu_alpha_beta = 0.3 }"), transversely_isotropic_plane_strain(rock));
     EXPECT_EQ(constants("strain", given + "nu_beta_alpha = 0.15 }"), transversely_isotropic_plane_strain(rock));
+    const std::string bedded = "material.0.constants=" + given + "nu_alpha_beta = 0.3 }";
+    EXPECT_EQ(parse_deck(sample, "case.toml", {"solid.plane=strain", bedded}).materials[0].across,
+              transversely_isotropic_across(rock));
+    EXPECT_EQ(parse_deck(sample, "case.toml", {"solid.plane=stress", bedded}).materials[0].across, 0);
 }
 
 TEST(Deck, NeoHookean_TakesLameConstants) {

@@ -89,6 +89,7 @@ TEST(SolidSystem, PointFields_OfAViscousSolidInUniformFlow_HaveNewtonsStress) {
             EXPECT_NEAR(fields.cauchy[0], 2 * 2e3 * 2 + 5e3 * 2, 1e-9);
             EXPECT_NEAR(fields.cauchy[1], -2 * 2e3 * 2 + 5e3 * 2, 1e-9);
             EXPECT_NEAR(fields.cauchy[2], 2 * 2e3 * -1, 1e-9);
+            EXPECT_NEAR(fields.cauchy_zz, 5e3 * 2, 1e-9);
         }
     }
 }
