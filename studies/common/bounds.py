@@ -4,13 +4,27 @@ from __future__ import annotations
 import json
 import math
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping, Union
+from typing import Any, Mapping, Union
 
 Asked = Union[float, bool, tuple[float, float]]
 
 SKIPPED = "skipped"  # value of a metric whose runs need a program that is not there; the summary's `skipped` says why
+
+
+def write_summary(path: str | Path, summary: dict[str, Any]) -> None:
+    """Writes a study's summary, with the time. JSON has no NaN: what could not be measured is null, and keeps no bound."""
+    def strict(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: strict(of) for key, of in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [strict(of) for of in value]
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+
+    written = strict(summary) | {"written": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+    Path(path).write_text(json.dumps(written, indent=1, allow_nan=False) + "\n")
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """Workflow step: the metrics of the study, into summary.json. README.md defines each."""
 import json
-import time
 from dataclasses import asdict
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from studies.blast.analysis import consistency, deep, largest_jump, last_cracks, orientation, worst_balance
 from studies.blast.cases import CASES
+from studies.common.bounds import write_summary
 from studies.common.results import read_summary, read_table
 
 metrics: dict[str, float] = {}
@@ -54,7 +54,6 @@ for name, case in CASES.items():
         for key in ("crack_length_m", "mean_orientation_deg", "concentration", "mean_orientation_near_cavity_deg",
                     "concentration_near_cavity"):
             metrics[f"{key}/{name}"] = details[name][key]
-Path(snakemake.output[0]).write_text(json.dumps({  # noqa: F821
+write_summary(snakemake.output[0], {  # noqa: F821
     "study": "blast", "extent": snakemake.params.profile, "metrics": metrics, "details": details,  # noqa: F821
-    "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
-}, indent=1) + "\n")
+})

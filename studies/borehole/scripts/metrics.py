@@ -1,6 +1,5 @@
 """Workflow step: the metrics of the study from the runs' histories, into summary.json. README.md defines each."""
 import json
-import time
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy as np
 from studies.borehole.analysis import (Results, all_histories_difference, cavity_errors, front_speed_error,
                                        largest_filtered_difference, rotation_difference)
 from studies.borehole.cases import DIRECTIONS, MATERIALS, PLANS, POISSON_RATIOS, ROTATION_PAIRS, Case, Plan
+from studies.common.bounds import write_summary
 from studies.common.results import find_number, observed_order, read_summary
 
 
@@ -144,8 +144,7 @@ def collect(results: Results, plan: Plan) -> dict:
 
 def main(folder: Path, profile: str, out: Path) -> None:
     summary = {"status": "done", "extent": profile} | collect(Results(folder), PLANS[profile])
-    summary["written"] = time.strftime("%Y-%m-%dT%H:%M:%S%z")
-    out.write_text(json.dumps(summary, indent=1) + "\n")
+    write_summary(out, summary)
 
 
 main(Path(snakemake.params.folder), snakemake.params.profile, Path(snakemake.output[0]))  # noqa: F821

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from studies.common.bounds import SKIPPED, Bound, check, main
+from studies.common.bounds import SKIPPED, Bound, check, main, write_summary
 
 BOUNDS = {
     "error": Bound(0.02, 0.08),
@@ -20,6 +20,17 @@ BOUNDS = {
 def summary(extent="full", **changes):
     metrics = {name: getattr(bound, extent) for name, bound in BOUNDS.items()} | changes
     return {"extent": extent, "metrics": {k: v for k, v in metrics.items() if v is not None}}
+
+
+class TestWriteSummary(unittest.TestCase):
+    def test_WhatCouldNotBeMeasured_IsNull_AndKeepsNoBound(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "summary.json"
+            write_summary(path, {"extent": "full", "metrics": {"error": math.nan, "order": 2.0}, "details": {"slopes": [1.0, math.inf]}})
+            read = json.loads(path.read_text(), parse_constant=lambda name: self.fail(f"{name} is no JSON"))
+        self.assertEqual(read["metrics"], {"error": None, "order": 2.0})
+        self.assertEqual(read["details"], {"slopes": [1.0, None]})
+        self.assertFalse(check(read, {"error": BOUNDS["error"]})[1])
 
 
 class TestCheck(unittest.TestCase):

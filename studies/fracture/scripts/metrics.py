@@ -1,7 +1,8 @@
 """Workflow step: the metrics of all experiments and the cost of their runs, into summary.json. README.md defines each."""
 import json
-import time
 from pathlib import Path
+
+from studies.common.bounds import write_summary
 
 metrics, wall = {}, {}
 for path in map(Path, snakemake.input.measured):  # noqa: F821
@@ -11,8 +12,8 @@ for path in map(Path, snakemake.input.measured):  # noqa: F821
         metrics[name] = value
 for path in map(Path, snakemake.input.runs):  # noqa: F821
     wall[path.parent.name] = json.loads(path.read_text())["timings"]["wall_s"]
-Path(snakemake.output[0]).write_text(json.dumps({  # noqa: F821
+write_summary(snakemake.output[0], {  # noqa: F821
     "study": "fracture", "extent": snakemake.params.profile, "metrics": metrics,  # noqa: F821
     "checked": [Path(path).stem for path in snakemake.input.checked],  # noqa: F821
-    "wall_s": wall, "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
-}, indent=1) + "\n")
+    "wall_s": wall,
+})

@@ -1,7 +1,6 @@
 """Workflow step: the metrics of the study from its comparisons and measurements, into summary.json. README.md defines each."""
 import json
 import math
-import time
 from pathlib import Path
 from typing import Any, Iterable
 
@@ -9,7 +8,7 @@ from scipy.optimize import brentq
 
 import numpy as np
 
-from studies.common.bounds import SKIPPED
+from studies.common.bounds import SKIPPED, write_summary
 from studies.common.results import read_summary, read_table
 from studies.integrators import analysis, comparisons, through_events
 from studies.integrators.problems import FIRST_TOUCH, PROBLEMS, SAMPLES
@@ -168,9 +167,7 @@ def collect(profile: str) -> dict[str, Any]:
                 for scheme, value in of_scheme.items()}
     details = {"order": order, "order_settings": kept, "floor": floors, "failed": failed, "late": instants_late,
                "growth_rate": growing, "disc_energy_kept": restitution(compared["discs"]), "stability": steps["stability"]}
-    metrics = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in metrics.items()}
-    return {"study": "integrators", "status": "done", "extent": profile, "metrics": metrics, "details": details,
-            "written": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+    return {"study": "integrators", "status": "done", "extent": profile, "metrics": metrics, "details": details}
 
 
-Path(snakemake.output[0]).write_text(json.dumps(collect(snakemake.params.profile), indent=1) + "\n")  # noqa: F821
+write_summary(snakemake.output[0], collect(snakemake.params.profile))  # noqa: F821

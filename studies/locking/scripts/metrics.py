@@ -1,11 +1,10 @@
 """Workflow step: the metrics of the study from what the runs left, into summary.json. README.md defines each."""
 import json
-import time
 from pathlib import Path
 
 import numpy as np
 
-from studies.common.bounds import SKIPPED
+from studies.common.bounds import SKIPPED, write_summary
 from studies.common.results import read_table
 from studies.locking.analysis import (LAST_LEVELS, LOCKING_TABLE, REFERENCE_COMPLIANCE, TABLE_UNIT, Results, checkerboard,
                                       growth_per_halving, orders, pressure, relative_difference, stress_difference)
@@ -246,8 +245,7 @@ def collect(results: Results, plan: Plan, folder: Path, with_deal_ii: bool) -> d
 def main(folder: Path, profile: str, with_deal_ii: bool, out: Path) -> None:
     results = Results(folder / "cases", folder / "crosscheck")
     summary = {"status": "done", "extent": profile} | collect(results, PLANS[profile], folder, with_deal_ii)
-    summary["written"] = time.strftime("%Y-%m-%dT%H:%M:%S%z")
-    out.write_text(json.dumps(summary, indent=1) + "\n")
+    write_summary(out, summary)
 
 
 main(Path("."), snakemake.params.profile, snakemake.params.with_deal_ii, Path(snakemake.output[0]))  # noqa: F821
