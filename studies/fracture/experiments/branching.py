@@ -21,6 +21,7 @@ RAYLEIGH = 2125.0                          # m/s
 STRENGTH = {"tensile": 3.08e6, "cohesion": 9.24e6, "friction": 0.0, "residual_friction": 0.0, "G_I": 3.0, "G_II": 3.0}
 SIZE = {"full": 0.5e-3, "quick": 1e-3}     # m, sub-edges; the cohesion length is G E'/f_t^2 = 10.5 mm
 MESHES = {"full": 3, "quick": 1}           # of sizes a little different: as many samples
+FINE = 0.3e-3                              # m, sub-edges of one run more
 T_END = 80e-6
 FRAME = 2e-6                               # s, time between frames; fields of every tenth are kept
 CRACKED = 0.5                              # damage at which an edge counts as cracked
@@ -51,6 +52,7 @@ def cases(profile: str) -> dict[str, Deck]:
     found = {f"branching-extrinsic-{mesh}": deck("compt", SIZE[profile], "extrinsic", mesh) for mesh in range(MESHES[profile])}
     if profile == "full":
         found["branching-intrinsic-0"] = deck("compt", SIZE[profile], "intrinsic")
+        found["branching-fine"] = deck("compt", FINE, "extrinsic") | {"title": "fracture: branching, compt, extrinsic, fine mesh"}
     return found
 
 
@@ -80,7 +82,7 @@ def measure_run(folder: Path, size: float) -> dict:
 
 
 def measure(runs: Path, profile: str) -> dict:
-    found = {name: measure_run(runs / name, SIZE[profile]) for name in cases(profile)}
+    found = {name: measure_run(runs / name, FINE if name == "branching-fine" else SIZE[profile]) for name in cases(profile)}
     extrinsic = [f for name, f in found.items() if "extrinsic" in name]
     metrics = {}
     for name, key in (("start", "start_us"), ("softening", "softening_us"), ("failure", "failed_us"), ("parting", "parting_us"),
@@ -95,9 +97,11 @@ def measure(runs: Path, profile: str) -> dict:
                 "branching_dissipated_over_cracked_G": max(f["dissipated_over_cracked_G"] for f in extrinsic),
                 "branching_energy_balance_error": max(f["balance_error"] for f in found.values())}
     if profile == "full":
-        of = found["branching-intrinsic-0"]
-        metrics |= {"branching_intrinsic_start_us": of["start_us"], "branching_intrinsic_time_us": of["branching_us"],
-                    "branching_intrinsic_max_speed_over_rayleigh": of["speed_over_rayleigh"]}
+        for name, run in (("intrinsic", "branching-intrinsic-0"), ("fine", "branching-fine")):
+            of = found[run]
+            metrics |= {f"branching_{name}_start_us": of["start_us"], f"branching_{name}_parting_us": of["parting_us"],
+                        f"branching_{name}_time_us": of["branching_us"], f"branching_{name}_at_mm": of["branching_mm"],
+                        f"branching_{name}_max_speed_over_rayleigh": of["speed_over_rayleigh"]}
     name = "branching-extrinsic-0"
     return {"runs": found, "map": maps.speed_map(runs / name, T_END, WIDTH, HEIGHT), "metrics": metrics}
 
