@@ -102,6 +102,16 @@ TEST_F(Frames, SmallStretch_FieldsHaveTheirValues) {
     }
 }
 
+TEST_F(Frames, InSituStress_HasTheStressAcrossThatPlaneStrainMakesOfIt) {
+    CaseOptions options = square_options();
+    options.materials[0].form = Form::hypo;
+    options.materials[0].in_situ_stress = {Formula(-3e6), Formula(-2e6), Formula(5e5)};
+    const test::VtuArray cauchy = frame(options, {0, 0, 0, 0}).of_cell("cauchy_stress");
+    const double sigma[] = {-3e6, -2e6, 0.25 * -5e6, 5e5, 0, 0};  // nu = 1/4
+    for (std::size_t cell = 0; cell < cauchy.n_rows(); ++cell)
+        for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(cauchy(cell, k), sigma[k], 1e-12 * 3e6) << k;
+}
+
 TEST_F(Frames, PlaneStress_HasNoStressAcrossThePlane) {
     CaseOptions options = square_options();
     options.solid.plane = Plane::stress;

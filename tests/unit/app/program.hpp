@@ -1,24 +1,14 @@
 #pragma once
 // The program as a user meets it: a command line, a folder, what it prints, how it ends.
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/types.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace gneiss::test {
@@ -32,97 +22,28 @@ struct Ended {
 /// A test in a folder of its own, removed afterwards, in which it calls the program.
 class ProgramTest : public ::testing::Test {
 protected:
-    ProgramTest() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "gneiss_program_XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-        folder = pattern;
-    }
-    ~ProgramTest() override { std::filesystem::remove_all(folder); }
+    ProgramTest();
+    ~ProgramTest() override;
 
-    std::string contents(const std::filesystem::path& name) const {
-        std::ifstream file(folder / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    void put(const std::filesystem::path& name, const std::string& text) const {
-        if (name.has_parent_path()) std::filesystem::create_directories(folder / name.parent_path());
-        std::ofstream(folder / name, std::ios::binary) << text;
-    }
-    bool exists(const std::filesystem::path& name) const { return std::filesystem::exists(folder / name); }
-    nlohmann::json summary(const std::filesystem::path& results) const {
-        return nlohmann::json::parse(contents(results / "summary.json"), nullptr, false);
-    }
+    std::string contents(const std::filesystem::path& name) const;
+    void put(const std::filesystem::path& name, const std::string& text) const;
+    bool exists(const std::filesystem::path& name) const;
+    nlohmann::json summary(const std::filesystem::path& results) const;
     /// Columns of a .csv by their headings.
-    std::map<std::string, std::vector<double>> table(const std::filesystem::path& file) const {
-        std::istringstream lines(contents(file));
-        std::string line, cell;
-        std::getline(lines, line);
-        std::vector<std::string> headings;
-        for (std::istringstream cells(line); std::getline(cells, cell, ',');) headings.push_back(cell);
-        std::map<std::string, std::vector<double>> columns;
-        while (std::getline(lines, line)) {
-            std::istringstream cells(line);
-            for (const std::string& heading : headings) {
-                std::getline(cells, cell, ',');
-                columns[heading].push_back(std::stod(cell));
-            }
-        }
-        return columns;
-    }
-    std::size_t n_lines(const std::filesystem::path& name) const {
-        const std::string text = contents(name);
-        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-    }
+    std::map<std::string, std::vector<double>> table(const std::filesystem::path& file) const;
+    std::size_t n_lines(const std::filesystem::path& name) const;
 
     /// Calls `gneiss ARGUMENTS` in the folder. The energy balance of a run that comes to its end has to close to a
     /// hundredth, unless balance_may_be_out.
     /// @param meanwhile  called with the process's number while it runs
-    Ended gneiss(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) const {
-        std::vector<std::string> given = arguments;
-        if (overwrites && !given.empty() && (given[0] == "run" || given[0] == "compare"))
-            given.insert(given.begin() + 1, "--overwrite");
-        const pid_t child = ::fork();
-        if (child == 0) {
-            std::vector<char*> argv{const_cast<char*>(GNEISS_PROGRAM)};
-            for (const std::string& argument : given) argv.push_back(const_cast<char*>(argument.c_str()));
-            argv.push_back(nullptr);
-            const bool ready = ::chdir(folder.c_str()) == 0 && redirect("stdout.txt", STDOUT_FILENO) &&
-                               redirect("stderr.txt", STDERR_FILENO);
-            if (ready) ::execv(GNEISS_PROGRAM, argv.data());
-            ::_exit(127);
-        }
-        if (meanwhile) meanwhile(child);
-        int status = 0;
-        ::waitpid(child, &status, 0);
-        Ended ended;
-        ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-        ended.out = contents("stdout.txt");
-        ended.err = contents("stderr.txt");
-        if (ended.code == 0 && arguments[0] == "run" && !balance_may_be_out) {
-            const auto out = std::ranges::find(arguments, "--out");
-            const auto results = out != arguments.end() ? std::filesystem::path(*(out + 1))
-                                                        : "results" / std::filesystem::path(arguments[1]).stem();
-            const nlohmann::json found = summary(results);
-            if (found.is_object()) {
-                EXPECT_LT(found["largest_balance_error"], 0.01) << results;
-            }
-        }
-        return ended;
-    }
+    Ended gneiss(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) const;
 
-    /// Waits until the file is there and the condition holds; half a minute at most.
-    static void wait_until(const std::function<bool()>& condition) {
-        for (int i = 0; i < 30000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    /// Waits until the condition holds; half a minute at most.
+    static void wait_until(const std::function<bool()>& condition);
 
     std::filesystem::path folder;
     bool balance_may_be_out = false;
     bool overwrites = true;  ///< runs and comparisons are called with --overwrite
-
-private:
-    static bool redirect(const char* name, int descriptor) {
-        const int file = ::open(name, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-        return file >= 0 && ::dup2(file, descriptor) >= 0;
-    }
 };
 
 /// A square of 32 composites under a step pressure: some tens of steps.

@@ -1,6 +1,7 @@
 // `gneiss compare`: its table against separate runs, what it repeats, and what it says of runs that fail.
 
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include "unit/app/program.hpp"
 

@@ -1,6 +1,7 @@
 // Results are not lost to another run: folders in use, and folders that hold what has been computed.
 
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include "unit/app/program.hpp"
 

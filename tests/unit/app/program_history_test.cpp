@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "unit/app/program.hpp"
 
 namespace gneiss {

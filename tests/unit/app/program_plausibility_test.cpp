@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "unit/app/program.hpp"
 
 namespace gneiss {

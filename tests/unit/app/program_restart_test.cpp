@@ -1,6 +1,7 @@
 // Interrupted runs, and runs that go on: bit for bit what an uninterrupted run gives.
 
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include <regex>
 

@@ -1,6 +1,7 @@
 // Static integrators as a user meets them: what a run leaves, what check says, and every way in which it can fail.
 
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include "unit/app/program.hpp"
 
