@@ -16,9 +16,10 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-for package in python3-meshio=7.0.0-3 python3-rich=13.3.1-1 python3-numpy=1:1.24.2-1+deb12u1 python3-pygments python3-commonmark \
-    python3-typing-extensions python3-lxml libblas3 liblapack3 libgfortran5 libquadmath0; do
-    apt-get download -q "$package" >/dev/null 2>&1
+for package in python3-meshio=7.0.0-3 python3-rich=13.3.1-1 python3-numpy=1:1.24.2-1+deb12u1 python3-pygments=2.14.0+dfsg-1 \
+    python3-commonmark=0.9.1-4 python3-typing-extensions=4.4.0-1 python3-lxml=4.9.2-1+deb12u1 libblas3=3.11.0-2 liblapack3=3.11.0-2 \
+    libgfortran5=12.2.0-14+deb12u1 libquadmath0=12.2.0-14+deb12u1; do
+    apt-get download -q "$package" >/dev/null 2>&1 || { echo "$package cannot be fetched: this is not Debian 12 as it was then"; exit 1; }
 done
 for file in *.deb; do dpkg -x "$file" root; done
 libraries=$(find "$PWD/root/usr/lib" -name 'lib*.so*' -printf '%h\n' | sort -u | paste -sd :)

@@ -44,7 +44,11 @@ def count(ctest_report, reports):
         if not report.exists():
             found.append((text, outcome))
             continue
-        tests = list(of_executable(report))
+        try:
+            tests = list(of_executable(report))
+        except xml.ParseError:
+            found.append((f"{name}, whose report is not whole", "failed"))
+            continue
         found += tests
         if outcome == "failed" and not any(result == "failed" for _, result in tests):
             found.append((f"{name}, whose executable failed after its tests", outcome))

@@ -11,6 +11,7 @@ CTEST = """<testsuite>
   <testcase name="program.1" status="fail"/>
   <testcase name="program.2" status="fail"/>
   <testcase name="joints" status="fail"/>
+  <testcase name="deck" status="fail"/>
   <testcase name="packages" status="run"/>
   <testcase name="readers.paraview" status="notrun">
     <skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/>
@@ -36,13 +37,14 @@ class TestCount(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             reports = Path(folder)
             (reports / "ctest").write_text(CTEST)
-            for name, text in (("model", MODEL), ("program.1", PROGRAM), ("joints", JOINTS)):
+            for name, text in (("model", MODEL), ("program.1", PROGRAM), ("joints", JOINTS), ("deck", JOINTS[:60])):
                 (reports / f"{name}.xml").write_text(text)
             self.assertEqual(count(reports / "ctest", reports), [
                 ("model.Model.A_B_C", "passed"), ("model.Model.A_B_D", "skipped"),
                 ("program.Every/Program.A/Cst", "failed"), ("program.Program.B", "passed"),
                 ("program.2", "failed"),
                 ("joints.Joints.A", "passed"), ("joints, whose executable failed after its tests", "failed"),
+                ("deck, whose report is not whole", "failed"),
                 ("packages", "passed"), ("readers.paraview, no pvpython", "skipped")])
 
 

@@ -51,14 +51,14 @@ class TestCheckerboard(unittest.TestCase):
 
     def test_Pressure_IsMinusTheMeanStressInThePlane(self):
         frame = square(1)
-        frame.cell_data["cauchy_stress"] = np.array([[2.0, 4.0, 7.0], [-1.0, 0.0, 7.0]])
+        frame.cell_data["cauchy_stress"] = np.array([[2.0, 4.0, 7.0, 8.0, 0.0, 0.0], [-1.0, 0.0, 7.0, 8.0, 0.0, 0.0]])
         np.testing.assert_array_equal(pressure(frame), [-3.0, 0.5])
 
 
 class TestStressDifference(unittest.TestCase):
     def test_ScaledStress_DiffersByItsScale(self):
         one, other = square(4), square(4)
-        one.cell_data["cauchy_stress"] = np.random.default_rng(1).normal(size=(32, 3))
+        one.cell_data["cauchy_stress"] = np.random.default_rng(1).normal(size=(32, 6))
         other.cell_data["cauchy_stress"] = 0.9 * one.cell_data["cauchy_stress"]
         self.assertAlmostEqual(stress_difference(other, one), 0.1)
 
