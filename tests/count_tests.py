@@ -21,8 +21,11 @@ def of_executable(report):
             continue  # filtered out or another shard's
         if case.find("failure") is not None:
             yield name, "failed"
+        elif case.get("result") == "skipped":
+            reason = case.find("skipped").get("message", "").splitlines()[1:]  # the first line is where
+            yield ", ".join([name, *filter(None, reason)]), "skipped"
         else:
-            yield name, "skipped" if case.get("result") == "skipped" else "passed"
+            yield name, "passed"
 
 
 def of_other(case):

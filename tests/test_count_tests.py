@@ -20,7 +20,7 @@ CTEST = """<testsuite>
 </testsuite>"""
 MODEL = """<testsuites><testsuite>
   <testcase name="A_B_C" classname="Model" status="run" result="completed"/>
-  <testcase name="A_B_D" classname="Model" status="run" result="skipped"><skipped message=""/></testcase>
+  <testcase name="A_B_D" classname="Model" status="run" result="skipped"><skipped message="/a/model_test.cpp:7&#x0A;has no rate"/></testcase>
   <testcase name="A_B_E" classname="Model" status="notrun" result="suppressed"/>
 </testsuite></testsuites>"""
 PROGRAM = """<testsuites><testsuite>
@@ -40,7 +40,7 @@ class TestCount(unittest.TestCase):
             for name, text in (("model", MODEL), ("program.1", PROGRAM), ("joints", JOINTS), ("deck", JOINTS[:60])):
                 (reports / f"{name}.xml").write_text(text)
             self.assertEqual(count(reports / "ctest", reports), [
-                ("model.Model.A_B_C", "passed"), ("model.Model.A_B_D", "skipped"),
+                ("model.Model.A_B_C", "passed"), ("model.Model.A_B_D, has no rate", "skipped"),
                 ("program.Every/Program.A/Cst", "failed"), ("program.Program.B", "passed"),
                 ("program.2", "failed"),
                 ("joints.Joints.A", "passed"), ("joints, whose executable failed after its tests", "failed"),
