@@ -14,7 +14,7 @@ set(CMAKE_REQUIRED_INCLUDES "${GNEISS_SUNDIALS_HEADERS}" ${MPI_C_INCLUDE_DIRS})
 check_cxx_symbol_exists(KINSetErrFile "cstdio;kinsol/kinsol.h" GNEISS_SUNDIALS_HAS_SET_ERR_FILE)
 check_cxx_symbol_exists(SUNContext_ClearErrHandlers "cstdio;sundials/sundials_context.h" GNEISS_SUNDIALS_HAS_ERR_HANDLERS)
 check_cxx_symbol_exists(ARKodeEvolve "cstdio;arkode/arkode.h" GNEISS_SUNDIALS_HAS_COMMON_ARKODE)
-# mri and a test ask: whether ARKODE evaluates rates at the ends of steps when somebody wants them, or always
+# whether ARKODE evaluates rates at the ends of steps when somebody wants them, or always
 check_cxx_symbol_exists(ARKodeButcherTable_IsStifflyAccurate "cstdio;arkode/arkode_butcher.h" GNEISS_SUNDIALS_HAS_LAZY_RATES)
 unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
 cmake_pop_check_state()
@@ -26,7 +26,7 @@ endif()
 add_library(gneiss_sundials INTERFACE)
 add_library(gneiss::sundials ALIAS gneiss_sundials)
 target_link_libraries(gneiss_sundials INTERFACE SUNDIALS::nvecserial)
-foreach(feature SET_ERR_FILE ERR_HANDLERS COMMON_ARKODE)
+foreach(feature SET_ERR_FILE ERR_HANDLERS COMMON_ARKODE LAZY_RATES)
   target_compile_definitions(gneiss_sundials INTERFACE
     GNEISS_SUNDIALS_HAS_${feature}=$<BOOL:${GNEISS_SUNDIALS_HAS_${feature}}>)
 endforeach()

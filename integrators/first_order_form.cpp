@@ -35,6 +35,12 @@ void FirstOrderForm::pack(const State& state, std::span<double> y) const {
     std::ranges::copy(state.z, y.begin() + static_cast<std::ptrdiff_t>(2 * n_free()));
 }
 
+bool FirstOrderForm::is_packed(const State& state, std::span<const double> y) const {
+    for (std::size_t i = 0; i < n_free(); ++i)
+        if (y[i] != state.u[free_[i]] || y[n_free() + i] != state.v[free_[i]]) return false;
+    return std::ranges::equal(y.subspan(2 * n_free()), state.z);
+}
+
 void FirstOrderForm::unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to) {
     to.t = t;
     for (std::size_t i = 0; i < n_free(); ++i) {

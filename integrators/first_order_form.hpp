@@ -33,6 +33,8 @@ public:
 
     /// @param[out] y  shape (size())
     void pack(const State& state, std::span<double> y) const;
+    /// Whether y is what pack() makes of the state.
+    bool is_packed(const State& state, std::span<const double> y) const;
     /// @param[out] to  u, v, z and t
     void unpack(const SemiDiscrete& system, double t, std::span<const double> y, State& to);
     /// F(t, y), or a part of it.

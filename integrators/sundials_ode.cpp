@@ -13,17 +13,6 @@
 #include "system/load_pace.hpp"
 
 namespace gneiss {
-namespace {
-
-/// Whether y is that of a state. SUNDIALS works in y() while a step is under way.
-bool is_packed(const FirstOrderForm& form, const State& state, std::span<const double> y) {
-    const std::size_t n = form.n_free();
-    for (std::size_t i = 0; i < n; ++i)
-        if (y[i] != state.u[form.free()[i]] || y[n + i] != state.v[form.free()[i]]) return false;
-    return std::ranges::equal(y.subspan(2 * n), state.z);
-}
-
-}  // namespace
 
 void SundialsOde::Options::check(std::vector<Problem>& problems) const {
     const auto need = [&](bool fine, const char* key, const std::string& message) {
@@ -287,7 +276,8 @@ void SundialsOde::count(double t, std::span<const double> y, FirstOrderForm::Par
         ++counts_.balance;
         return;
     }
-    const bool at_start = !start_counted_ && t == accepted_->t && is_packed(form_, *accepted_, y);
+    // not y(), in which SUNDIALS works while a step is under way
+    const bool at_start = !start_counted_ && t == accepted_->t && form_.is_packed(*accepted_, y);
     start_counted_ = start_counted_ || at_start;
     ++(at_start ? counts_.starts : counts_.rates);
 }
