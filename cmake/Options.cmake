@@ -1,5 +1,5 @@
 # One interface target carries every flag that our own code is compiled with. The architecture flag belongs here
-# and nowhere else: Eigen's alignment and the width of packs, and so the ABI, follow from it. That is why whoever links an
+# and nowhere else: the alignment of Eigen's matrices and the width of packs, and so the ABI, follow from it. That is why whoever links an
 # installed gneiss gets it too; all but that is for this build.
 add_library(gneiss_options INTERFACE)
 add_library(gneiss::options ALIAS gneiss_options)
@@ -49,6 +49,12 @@ function(gneiss_precompiled target owner)
   target_compile_options(${target} PRIVATE -fpch-preprocess)  # ccache asks for it
 endfunction()
 
+# gneiss_unity(TARGET): compiles several of its files at once, in half of the processor time of a clean build. So names in
+# unnamed namespaces are met once per folder.
+function(gneiss_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${GNEISS_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # gneiss_exported(NAME): installed and exported as gneiss::NAME.
 function(gneiss_exported name)
   set_target_properties(gneiss_${name} PROPERTIES EXPORT_NAME ${name})
@@ -57,7 +63,7 @@ endfunction()
 gneiss_exported(options)
 
 set(gneiss_headers <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <span> <stdexcept> <string> <vector>
-  <fmt/format.h>)
+  <fmt/format.h> <xsimd/xsimd.hpp>)
 
 # gneiss_library(NAME sources...): a static library gneiss_NAME with alias gneiss::NAME.
 function(gneiss_library name)
@@ -65,5 +71,6 @@ function(gneiss_library name)
   add_library(gneiss::${name} ALIAS gneiss_${name})
   target_link_libraries(gneiss_${name} PUBLIC gneiss::options PRIVATE fmt::fmt)  # what puts messages together
   gneiss_precompiled(gneiss_${name} gneiss_base ${gneiss_headers})
+  gneiss_unity(gneiss_${name})
   gneiss_exported(${name})
 endfunction()

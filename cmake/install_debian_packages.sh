@@ -15,7 +15,7 @@ set -euo pipefail
 # every further one.
 run=(
     ca-certificates git
-    g++ cmake ninja-build ccache                   # compiler with OpenMP, build
+    g++ cmake ninja-build                          # compiler with OpenMP, build
     libeigen3-dev libxsimd-dev                     # linear algebra, packs
     libsuitesparse-dev libsundials-dev             # sparse linear systems; nonlinear ones and ODEs
     libopenblas0-serial                            # dense blocks of factors: 3 times faster than with Debian's reference BLAS
@@ -25,7 +25,8 @@ run=(
     python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
 )
 crosscheck=(libdeal.ii-dev)                        # tests/crosscheck, the largest of all; gneiss itself does without
-tests=(libgtest-dev libgmock-dev libbenchmark-dev)
+tests=(libgtest-dev libgmock-dev libbenchmark-dev
+    ccache)                                        # presets for development
 
 say() { printf 'packages: %s\n' "$*"; }
 fail() { printf 'packages: error: %s\n' "$*" >&2; exit 1; }

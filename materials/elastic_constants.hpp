@@ -2,7 +2,6 @@
 // From engineering constants to the Munjiza elastic constants, and to the stiffness they mean at small strain.
 // Equation numbers are those of Lei et al. 2016.
 
-#include <Eigen/Core>
 #include <string>
 
 namespace gneiss {
@@ -52,13 +51,5 @@ LameConstants lame_constants(double E, double nu);  ///< E in Pa, nu in (-1, 0.5
 /// [[M_v + M_alpha, M_v], [M_v, M_v + M_beta]] positive definite and M_psi > 0.
 std::string inadmissibility(const MunjizaConstants& constants);
 inline bool is_admissible(const MunjizaConstants& constants) { return inadmissibility(constants).empty(); }
-
-/// Small-strain stiffness of the normal components on orthogonal axes, Pa, shape (2, 2):
-/// (sigma_alpha, sigma_beta) from (eps_alpha, eps_beta).
-Eigen::Matrix2d normal_stiffness(const MunjizaConstants& constants);
-
-/// Small-strain stiffness on orthogonal axes, Pa, shape (3, 3): (sigma_alpha, sigma_beta, sigma_alpha_beta) from
-/// (eps_alpha, eps_beta, 2 eps_alpha_beta). The shear entry is M_psi / 2 = G.
-Eigen::Matrix3d small_strain_stiffness(const MunjizaConstants& constants);
 
 }  // namespace gneiss

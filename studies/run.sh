@@ -43,11 +43,11 @@ fail() { printf '\nstudies/run.sh: %s\n' "$1" >&2; exit 1; }
 
 packages=run
 ! grep -q crosscheck "studies/$name/Snakefile" || packages=crosscheck
-step 1/4 "Debian packages: on a bare machine several minutes, otherwise at once"
+step 1/4 "Debian packages: on a bare machine one to three minutes, otherwise at once"
 cmake/install_debian_packages.sh "$packages"
 took
 
-step 2/4 "building the program with preset $preset in build/$preset: some minutes the first time"
+step 2/4 "building the program with preset $preset in build/$preset: four minutes the first time on two cores"
 cmake --preset "$preset" >/dev/null \
     || fail "configuring failed; if build/$preset is left over from another place, delete it"
 targets=(gneiss_app)

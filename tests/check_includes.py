@@ -38,7 +38,7 @@ MAY_INCLUDE = {
 
 # Headers of other projects that a layer may use; a layer that is not named here may use any.
 MAY_USE = {
-    "src/base": ["Eigen/", "unsupported/Eigen/", "xsimd/"],
+    "src/base": ["xsimd/"],
     "src/system": [],
 }
 

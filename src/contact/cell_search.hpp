@@ -25,6 +25,8 @@ struct ContactCandidate {
 
     friend auto operator<=>(const ContactCandidate&, const ContactCandidate&) = default;
 };
+/// The ends of the point's edge and the three of the target.
+inline constexpr std::size_t nodes_per_candidate = 5;
 
 /// What is searched. Spans must outlive the call only.
 struct ContactSurroundings {

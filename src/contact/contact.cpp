@@ -6,19 +6,11 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/index.hpp"
 #include "base/parallel.hpp"
 #include "mesh/geometry.hpp"
 
 namespace gneiss {
-namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// In what follows a candidate's nodes are the ends of the point's edge and the three of the target.
-constexpr std::size_t n_nodes = 5;
-
-}  // namespace
-
 void Contact::Options::validate() const {
     std::vector<Problem> problems;
     const auto require = [&](bool good, const char* what, double value, const char* range) {
@@ -215,7 +207,7 @@ std::vector<double> Contact::settled(std::span<const double> u, const std::vecto
     return after;
 }
 
-std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair) const {
+std::array<std::int32_t, nodes_per_candidate> Contact::nodes_of(const ContactCandidate& pair) const {
     const auto& [i, j, k] = bodies_.triangles()[index(pair.triangle)];
     return {bodies_.points().a[index(pair.point)], bodies_.points().b[index(pair.point)], i, j, k};
 }
@@ -223,7 +215,7 @@ std::array<std::int32_t, n_nodes> Contact::nodes_of(const ContactCandidate& pair
 void Contact::held_by(const ContactCandidate& pair, std::vector<Held>& nodes) const {
     nodes.clear();
     const auto bonded_nodes = nodes_of(pair);
-    for (std::size_t local = 0; local < n_nodes; ++local) {
+    for (std::size_t local = 0; local < nodes_per_candidate; ++local) {
         for (const std::int32_t node : bodies_.held(bonded_nodes[local]))
             nodes.push_back({node, local, bodies_.share(node)});
     }

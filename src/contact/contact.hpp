@@ -132,7 +132,7 @@ private:
     double stored(std::span<const double> u, std::span<const double> history) const;
     void bound_stiffness(std::span<const double> u) const;
     bool adjacent(std::int32_t triangle, std::int32_t other) const;
-    std::array<std::int32_t, 5> nodes_of(const ContactCandidate& pair) const;
+    std::array<std::int32_t, nodes_per_candidate> nodes_of(const ContactCandidate& pair) const;
     /// One of the mesh's nodes that a pair acts on.
     struct Held {
         std::int32_t node;

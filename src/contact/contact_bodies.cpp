@@ -6,14 +6,13 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/parallel.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/sub_triangles.hpp"
 
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<std::int32_t> counted(std::size_t n) {
     std::vector<std::int32_t> numbers(n);

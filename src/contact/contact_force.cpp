@@ -9,16 +9,15 @@
 
 #include "base/dual.hpp"
 #include "base/errors.hpp"
+#include "base/index.hpp"
 #include "base/parallel.hpp"
 #include "contact/contact.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr std::size_t n_nodes = 5, n_dof = 2 * n_nodes;
+constexpr std::size_t n_dof = 2 * nodes_per_candidate;
 constexpr std::size_t packs_per_range = 256;  ///< what a thread takes at a time
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// body(first, last) on ranges of packs, in threads.
 template <class Body>
@@ -148,7 +147,7 @@ double Contact::stiffness_of(const ContactCandidate& pair) const {
 LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) const {
     std::array<PairNumber, pack_width> triangles, points, memories;
     alignas(pack_alignment) std::array<double, pack_width> known, held;
-    PairNumber* nodes = &hit_nodes_[pack * n_nodes * pack_width];
+    PairNumber* nodes = &hit_nodes_[pack * nodes_per_candidate * pack_width];
     const ContactorPoints& all = bodies_.points();
     const AcceptedMemory memory(history, all.size());
     for (std::size_t lane = 0; lane < pack_width; ++lane) {
@@ -167,8 +166,8 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
             static_cast<std::int32_t>(known_[hit] != 0 ? memory.pair_of(index(pair.point), index(slots_[hit])) : 0)};
     }
     LoadedPairs pairs;
-    const std::array<Vec2<Pack>*, n_nodes> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
-    for (std::size_t k = 0; k < n_nodes; ++k) gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
+    const std::array<Vec2<Pack>*, nodes_per_candidate> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
+    for (std::size_t k = 0; k < nodes_per_candidate; ++k) gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
     for (std::size_t k = 0; k < 3; ++k)
         gather_pairs(bodies_.reference().data(), nodes + (k + 2) * pack_width, pairs.target.reference[k].x,
                      pairs.target.reference[k].y);
@@ -203,7 +202,7 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
 
 std::size_t Contact::respond(std::span<const double> history, std::span<double> updated) const {
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
-    hit_nodes_.resize(n_packs * n_nodes * pack_width);
+    hit_nodes_.resize(n_packs * nodes_per_candidate * pack_width);
     forces_.resize(n_packs * n_dof * pack_width);
     for (AlignedDoubles* energy : {&stored_, &slid_, &lost_}) energy->resize(n_packs * pack_width);
     std::size_t deep = std::numeric_limits<std::size_t>::max();
@@ -217,7 +216,7 @@ std::size_t Contact::respond(std::span<const double> history, std::span<double> 
             deep = std::min(deep, first + static_cast<std::size_t>(std::countr_zero(lane_bits(response.too_deep))));
         const auto forces = nodal_forces(response, pairs.weight_b);
         double* to = &forces_[pack * n_dof * pack_width];
-        for (std::size_t k = 0; k < n_nodes; ++k) {
+        for (std::size_t k = 0; k < nodes_per_candidate; ++k) {
             forces[k].x.store_aligned(to + 2 * k * pack_width);
             forces[k].y.store_aligned(to + (2 * k + 1) * pack_width);
         }
@@ -269,9 +268,9 @@ void Contact::add_force(const Trial& trial, std::span<const double> history, std
     }
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
     for (std::size_t pack = 0; pack < n_packs; ++pack)
-        for (std::size_t k = 0; k < n_nodes; ++k) {
+        for (std::size_t k = 0; k < nodes_per_candidate; ++k) {
             const double* force = &forces_[(pack * n_dof + 2 * k) * pack_width];
-            scatter_add_pairs(on_bonded.data(), &hit_nodes_[(pack * n_nodes + k) * pack_width],
+            scatter_add_pairs(on_bonded.data(), &hit_nodes_[(pack * nodes_per_candidate + k) * pack_width],
                               Pack::load_aligned(force), Pack::load_aligned(force + pack_width));
         }
     if (!bodies_.whole() && !hits_.empty()) bodies_.spread(f_, f);
@@ -303,14 +302,14 @@ void Contact::stiffness(const Trial& trial, std::span<const double> history,
     find_hits(bonded(trial.u));
     match(history);
     const std::size_t n_packs = padded(hits_.size()) / pack_width;
-    hit_nodes_.resize(n_packs * n_nodes * pack_width);
+    hit_nodes_.resize(n_packs * nodes_per_candidate * pack_width);
     ranges_of_packs(n_packs, [&](std::size_t first, std::size_t last) {
         std::vector<Held> nodes;
         for (std::size_t pack = first; pack < last; ++pack) {
             const LoadedPairs pairs = load(pack, history);
-            const std::array<Vec2<Pack>, n_nodes> at{pairs.a, pairs.b, pairs.x[0], pairs.x[1], pairs.x[2]};
-            std::array<Vec2<D>, n_nodes> moved;
-            for (int k = 0; k < static_cast<int>(n_nodes); ++k)
+            const std::array<Vec2<Pack>, nodes_per_candidate> at{pairs.a, pairs.b, pairs.x[0], pairs.x[1], pairs.x[2]};
+            std::array<Vec2<D>, nodes_per_candidate> moved;
+            for (int k = 0; k < static_cast<int>(nodes_per_candidate); ++k)
                 moved[static_cast<std::size_t>(k)] = {D::variable(at[static_cast<std::size_t>(k)].x, 2 * k),
                                                       D::variable(at[static_cast<std::size_t>(k)].y, 2 * k + 1)};
             const auto f = nodal_forces(pairs.respond(moved[0], moved[1], std::array{moved[2], moved[3], moved[4]}),

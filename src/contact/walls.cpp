@@ -7,11 +7,10 @@
 
 #include "base/dual.hpp"
 #include "base/errors.hpp"
+#include "base/index.hpp"
 
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// What a point remembers of one wall: in touch (1 or 0), anchor (m, along the tangent, from the wall's moving point),
 /// elastic slip (m), its limit (m), deepest penetration (m).

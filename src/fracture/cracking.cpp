@@ -7,11 +7,10 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "base/index.hpp"
 
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 void add_to_record(std::vector<double>& record, std::span<const std::int32_t> numbers) {
     record.push_back(static_cast<double>(numbers.size()));

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
 #include "base/parallel.hpp"
 
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 /// The sub-triangle at a sub-edge of a side, in the order of side_nodes().
 std::size_t sub_triangle_at(ElementKind kind, int side, std::size_t part) {

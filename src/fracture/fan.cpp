@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
+
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 int number_in(const Mesh& mesh, std::int32_t element, std::int32_t node) {
     const std::int32_t* nodes = mesh.element(index(element));

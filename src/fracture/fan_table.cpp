@@ -4,12 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "base/index.hpp"
+
 namespace gneiss {
-namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
-
-}  // namespace
+namespace {}  // namespace
 
 void FanTable::require(std::int32_t node, ElementResponse& response) {
     if (ranges_.size() < mesh_.n_nodes()) ranges_.resize(mesh_.n_nodes());

@@ -5,14 +5,13 @@
 #include <map>
 #include <vector>
 
+#include "base/index.hpp"
 #include "fracture/envelope.hpp"
 
 namespace gneiss {
 namespace {
 
 using Ends = std::vector<Joints::WaitingEnd>;
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// y with sum over the ends at i of (y_i - y_j) = x_i, for each connected set of nodes, on which x has to add up to
 /// nothing: elimination of the graph's Laplacian, one node of a set held. A node has a dozen copies at most.

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/parallel.hpp"
 
 namespace gneiss {
 namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 bool by_node(const CornerForce& a, const CornerForce& b) { return a.node < b.node; }
 

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "fracture/envelope.hpp"
 
 namespace gneiss {
-namespace {
-
-std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number); }
-
-}  // namespace
+namespace {}  // namespace
 
 double SideCriterion::utilisation_of(const State& state, std::int32_t side) {
     const InnerSide& inner = parts_.inner.sides()[index(side)];

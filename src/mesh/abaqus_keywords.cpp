@@ -56,7 +56,7 @@ AbaqusKeyword keyword_of(const std::string& line, std::string where) {
     return keyword;
 }
 
-class Reader {
+class KeywordReader {
 public:
     std::vector<AbaqusKeyword> read(const fs::path& file) {
         add(file, 0, "");
@@ -138,6 +138,6 @@ std::string capitals(std::string text) {
     return text;
 }
 
-std::vector<AbaqusKeyword> abaqus_keywords(const fs::path& file) { return Reader().read(file); }
+std::vector<AbaqusKeyword> abaqus_keywords(const fs::path& file) { return KeywordReader().read(file); }
 
 }  // namespace gneiss

@@ -66,9 +66,9 @@ private:
     std::ofstream& stream_;
 };
 
-class Reader {
+class DraftReader {
 public:
-    explicit Reader(std::ifstream& stream) : stream_(stream) {}
+    explicit DraftReader(std::ifstream& stream) : stream_(stream) {}
     template <class T>
     void operator()(T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -129,7 +129,7 @@ void write_draft(const std::filesystem::path& file, const DraftOrProblems& resul
 
 DraftOrProblems read_draft(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    Reader reader(stream);
+    DraftReader reader(stream);
     bool is_draft = false;
     reader(is_draft);
     DraftOrProblems result;

@@ -8,6 +8,7 @@
 
 #include "base/flatten.hpp"
 #include "elements/triangle_kernel.hpp"
+#include "elements/triangle_tangent.hpp"
 #include "model/element_block.hpp"
 
 namespace gneiss {
@@ -41,10 +42,10 @@ public:
     bool symmetric_tangent() const override {
         return law_.symmetric_tangent() && sampling == Sampling::mean && !viscous();
     }
-    GNEISS_FLATTEN void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
-                                    const MatrixPlaces& places, double* values) const override;
-    GNEISS_FLATTEN void add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
-                                     const LocalNodes& local) const override;
+    void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
+                     const MatrixPlaces& places, double* values) const override;
+    void add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
+                      const LocalNodes& local) const override;
     void internal_rate(std::size_t first, std::size_t last, const Evaluation& at, double* rate) const override;
     GNEISS_FLATTEN Sums energies(std::size_t first, std::size_t last, const Evaluation& at) const override;
     Rates largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const override;
@@ -90,25 +91,34 @@ private:
     static void store_memory(const Memory<Pack>& memory, double* z, double* history, std::size_t pack);
 
     /// Flattened: everything is inlined, so that a pack stays in registers from the gather to the scatter.
-    template <bool given, bool update, bool viscous>
+    template <bool given>
     GNEISS_FLATTEN std::ptrdiff_t add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
                                                   const LocalNodes& local) const;
     /// Evaluation::beyond of a pack.
     double beyond_watch(const TriangleKinematics<Element, Pack>& kinematics,
                         const TriangleStress<Element, Law, Pack>& stress, std::size_t pack) const;
     std::ptrdiff_t inverted_lane(std::size_t pack, const Pack::batch_bool_type& upright) const;
-    /// Displacements or velocities as independent variables.
-    static Nodal<Dual<n_dof, Pack>> independent(const Nodal<Pack>& values);
-    /// Forces of the law with their derivatives by u; without viscous forces.
-    Nodal<Dual<n_dof, Pack>> law_force(const PackGeometry& g, const Nodal<Pack>& u, const Memory<Pack>& memory) const;
-    /// Viscous forces with their derivatives by v.
-    Nodal<Dual<n_dof, Pack>> viscous_force(const PackGeometry& g, const Nodal<Pack>& u, const Nodal<Pack>& v) const;
-    /// d(force i)/d(variable j) of an element.
-    static const Pack& derivative(const Nodal<Dual<n_dof, Pack>>& f, int i, int j) {
-        return (i % 2 == 0 ? f[i / 2].x : f[i / 2].y).derivative[j];
-    }
-    /// Largest eigenvalue of M^-1/2 sym(-df/dx) M^-1/2, f given with its derivatives.
-    Pack mass_weighted_bound(const PackGeometry& geometry, const Nodal<Dual<n_dof, Pack>>& f) const;
+    struct Response {
+        TriangleKinematics<Element, Pack> kinematics;
+        TriangleStress<Element, Law, Pack> stress;
+    };
+    /// Strains and stresses of a pack, where a call per pack costs little beside the rest.
+    template <bool given>
+    [[gnu::noinline]] GNEISS_FLATTEN Response response(const PackGeometry& g, const Nodal<Pack>& u,
+                                                       const Memory<Pack>& memory) const;
+    /// factor df/du of the law's forces at the pack's displacements u. One function for all that ask for tangents: it
+    /// is long, and most of what takes a block to compile.
+    template <bool given>
+    [[gnu::noinline]] GNEISS_FLATTEN ElementMatrix<Element, Pack> law_tangent(const PackGeometry& g,
+                                                                              const Nodal<Pack>& u,
+                                                                              const Memory<Pack>& memory,
+                                                                              double factor) const;
+    /// Adds c_u df/du + c_v df/dv of the viscous forces.
+    [[gnu::noinline]] GNEISS_FLATTEN void add_viscosity(const PackGeometry& g, const Nodal<Pack>& u,
+                                                        const Nodal<Pack>& v, double c_u, double c_v,
+                                                        ElementMatrix<Element, Pack>& matrix) const;
+    /// Largest eigenvalue of M^-1/2 sym(-tangent) M^-1/2.
+    Pack mass_weighted_bound(const PackGeometry& geometry, const ElementMatrix<Element, Pack>& tangent) const;
 
     BlockGeometry info_;
     Law law_;

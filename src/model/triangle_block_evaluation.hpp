@@ -5,7 +5,6 @@
 #include <array>
 
 #include "base/prefetch.hpp"
-#include "elements/triangle_tangent.hpp"
 #include "model/eigenvalue_bound.hpp"
 #include "model/triangle_block.hpp"
 
@@ -30,7 +29,7 @@ double TriangleBlock<Element, sampling, Law>::beyond_watch(const TriangleKinemat
 // ----------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
-template <bool given, bool update, bool viscous>
+template <bool given>
 std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
                                                                       const Evaluation& at,
                                                                       const LocalNodes& nodal) const {
@@ -40,6 +39,7 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
     std::array<TriangleKinematics<Element, Pack>, depth> kinematics;
     std::array<TriangleStress<Element, Law, Pack>, depth> stress;
     const auto index = [this](std::size_t pack) { return local_nodes_.data() + pack * index_stride; };
+    const bool is_viscous = viscous(), update = !given && at.z_updated != nullptr;
     for (std::size_t begin = first; begin < last; begin += depth) {
         const std::size_t n = std::min(depth, last - begin);
         prefetch(geometry_.data(), (begin + ahead) * geometry_stride, (begin + ahead + depth) * geometry_stride,
@@ -63,18 +63,20 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
             const PackGeometry g = geometry(begin + i);
             Nodal<Pack> f;
             triangle_force(kinematics[i], g, stress[i], f);
-            if constexpr (viscous) {
+            if (is_viscous) {
                 const auto rates =
                     triangle_rates<Element, sampling>(gather(nodal.v, index(begin + i)), kinematics[i], g);
                 add_viscous_force<Element>(info_.viscosity, kinematics[i], rates, g, f);
             }
-            if constexpr (update) {
-                const Memory<Pack> memory = load_memory(at, begin + i);
-                Memory<Pack> updated;
-                for (std::size_t s = 0; s < Element::n_sub; ++s)
-                    updated[s] = law_.update(kinematics[i].point[s], stress[i].volume, stress[i].point[s], stress[i].q,
-                                             memory[s]);
-                store_memory(updated, at.z_updated, at.history_updated, begin + i);
+            if constexpr (Law::n_internal > 0) {
+                if (update) {
+                    const Memory<Pack> memory = load_memory(at, begin + i);
+                    Memory<Pack> updated;
+                    for (std::size_t s = 0; s < Element::n_sub; ++s)
+                        updated[s] = law_.update(kinematics[i].point[s], stress[i].volume, stress[i].point[s],
+                                                 stress[i].q, memory[s]);
+                    store_memory(updated, at.z_updated, at.history_updated, begin + i);
+                }
             }
 #pragma GCC unroll 6
             for (int node = 0; node < Element::n_nodes; ++node)
@@ -87,15 +89,19 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
 template <class Element, Sampling sampling, class Law>
 std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
                                                                 const Evaluation& at, const LocalNodes& local) const {
-    const auto run = [&]<bool given, bool update>() {
-        return viscous() ? add_force_packs<given, update, true>(first, last, at, local)
-                         : add_force_packs<given, update, false>(first, last, at, local);
-    };
-    if constexpr (Law::n_internal > 0) {
-        if (at.given) return run.template operator()<true, false>();
-        if (at.z_updated != nullptr) return run.template operator()<false, true>();
-    }
-    return run.template operator()<false, false>();
+    if constexpr (TakesGivenStress<Law>)
+        if (at.given) return add_force_packs<true>(first, last, at, local);
+    return add_force_packs<false>(first, last, at, local);
+}
+
+template <class Element, Sampling sampling, class Law>
+template <bool given>
+auto TriangleBlock<Element, sampling, Law>::response(const PackGeometry& g, const Nodal<Pack>& u,
+                                                     const Memory<Pack>& memory) const -> Response {
+    Response response;
+    response.kinematics = triangle_kinematics<Element, sampling>(u, g);
+    response.stress = triangle_stress<Element, given>(law_, response.kinematics, g, memory);
+    return response;
 }
 
 template <class Element, Sampling sampling, class Law>
@@ -104,9 +110,8 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
     if constexpr (Law::n_internal > 0) {
         for (std::size_t pack = first; pack < last; ++pack) {
             const PackGeometry g = geometry(pack);
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
             const Memory<Pack> memory = load_memory(at, pack);
-            const auto stress = triangle_stress<Element, true>(law_, kinematics, g, memory);
+            const auto [kinematics, stress] = response<TakesGivenStress<Law>>(g, gather(at.u, pack), memory);
             const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
             for (std::size_t s = 0; s < Element::n_sub; ++s) {
                 const auto z_rate =
@@ -122,8 +127,7 @@ template <class Element, Sampling sampling, class Law>
 void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, const Evaluation& at, double* cauchy,
                                                           double* force) const {
     const PackGeometry g = geometry(pack);
-    const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
-    const auto stress = triangle_stress<Element, false>(law_, kinematics, g, load_memory(at, pack));
+    const auto [kinematics, stress] = response<false>(g, gather(at.u, pack), load_memory(at, pack));
     for (int s = 0; s < Element::n_sub; ++s, cauchy += 3 * pack_width) {
         const auto sigma = cauchy_stress(kinematics.point[s], stress.point[s], stress.q);
         sigma.xx.store_unaligned(cauchy);
@@ -146,24 +150,39 @@ void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, cons
 // ---------------------------------------------------------------------------------------------------------
 
 template <class Element, Sampling sampling, class Law>
+template <bool given>
+auto TriangleBlock<Element, sampling, Law>::law_tangent(const PackGeometry& g, const Nodal<Pack>& u,
+                                                        const Memory<Pack>& memory, double factor) const
+    -> ElementMatrix<Element, Pack> {
+    ElementMatrix<Element, Pack> matrix;
+    for (auto& row : matrix) row.fill(Pack(0.0));
+    add_law_tangent<Element, sampling, given>(law_, triangle_kinematics<Element, sampling>(u, g), g, memory, factor,
+                                              matrix);
+    return matrix;
+}
+
+template <class Element, Sampling sampling, class Law>
+void TriangleBlock<Element, sampling, Law>::add_viscosity(const PackGeometry& g, const Nodal<Pack>& u,
+                                                          const Nodal<Pack>& v, double c_u, double c_v,
+                                                          ElementMatrix<Element, Pack>& matrix) const {
+    const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
+    const auto rates = triangle_rates<Element, sampling>(v, kinematics, g);
+    add_viscous_tangent<Element, sampling>(info_.viscosity, kinematics, rates, g, c_u, c_v, matrix);
+}
+
+template <class Element, Sampling sampling, class Law>
 void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::size_t last, const Evaluation& at,
                                                         double c_u, double c_v, const MatrixPlaces& places,
                                                         double* values) const {
     constexpr std::size_t n_pairs = Element::n_nodes * Element::n_nodes;
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
-        const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+        const Nodal<Pack> u = gather(at.u, pack);
         const Memory<Pack> memory = load_memory(at, pack);
-        ElementMatrix<Element, Pack> matrix;
-        for (auto& row : matrix) row.fill(Pack(0.0));
-        if (at.given)
-            add_law_tangent<Element, sampling, true>(law_, kinematics, g, memory, c_u, matrix);
-        else
-            add_law_tangent<Element, sampling, false>(law_, kinematics, g, memory, c_u, matrix);
-        if (viscous()) {
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
-            add_viscous_tangent<Element, sampling>(info_.viscosity, kinematics, rates, g, c_u, c_v, matrix);
-        }
+        ElementMatrix<Element, Pack> matrix = TakesGivenStress<Law> && at.given
+                                                  ? law_tangent<TakesGivenStress<Law>>(g, u, memory, c_u)
+                                                  : law_tangent<false>(g, u, memory, c_u);
+        if (viscous()) add_viscosity(g, u, gather(at.v, pack), c_u, c_v, matrix);
         // lanes behind the last element have no volume: they add zeros
         const std::int32_t* row_nodes = nodes_.data() + pack * index_stride;
         if (places.blocks == nullptr) {
@@ -193,10 +212,7 @@ void TriangleBlock<Element, sampling, Law>::add_row_sums(std::size_t first, std:
     for (std::size_t pack = first; pack < last; ++pack) {
         const auto* index = local_nodes_.data() + pack * index_stride;
         const PackGeometry g = geometry(pack);
-        const auto kinematics = triangle_kinematics<Element, sampling>(gather(local.u, index), g);
-        ElementMatrix<Element, Pack> matrix;
-        for (auto& row : matrix) row.fill(Pack(0.0));
-        add_law_tangent<Element, sampling, false>(law_, kinematics, g, load_memory(at, pack), 1.0, matrix);
+        const auto matrix = law_tangent<false>(g, gather(local.u, index), load_memory(at, pack), 1.0);
         std::array<Pack, n_dof> sums;
         sums.fill(Pack(0.0));
         for (std::size_t i = 0; i < n_dof; ++i)
@@ -235,36 +251,8 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
 }
 
 template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::independent(const Nodal<Pack>& values) -> Nodal<Dual<n_dof, Pack>> {
-    using D = Dual<n_dof, Pack>;
-    Nodal<D> duals;
-    for (int node = 0; node < Element::n_nodes; ++node)
-        duals[node] = {D::variable(values[node].x, 2 * node), D::variable(values[node].y, 2 * node + 1)};
-    return duals;
-}
-
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::law_force(const PackGeometry& g, const Nodal<Pack>& u,
-                                                      const Memory<Pack>& memory) const -> Nodal<Dual<n_dof, Pack>> {
-    Nodal<Dual<n_dof, Pack>> f;
-    const auto kinematics = triangle_kinematics<Element, sampling>(independent(u), g);
-    triangle_force(kinematics, g, triangle_stress<Element, false>(law_, kinematics, g, memory), f);
-    return f;
-}
-
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::viscous_force(const PackGeometry& g, const Nodal<Pack>& u,
-                                                          const Nodal<Pack>& v) const -> Nodal<Dual<n_dof, Pack>> {
-    Nodal<Dual<n_dof, Pack>> f{};
-    const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
-    add_viscous_force<Element>(info_.viscosity, kinematics,
-                               triangle_rates<Element, sampling>(independent(v), kinematics, g), g, f);
-    return f;
-}
-
-template <class Element, Sampling sampling, class Law>
 Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
-                                                                const Nodal<Dual<n_dof, Pack>>& f) const {
+                                                                const ElementMatrix<Element, Pack>& tangent) const {
     std::array<Pack, Element::n_nodes> mass;
     mass.fill(Pack(0.0));
     for (int s = 0; s < Element::n_sub; ++s)
@@ -274,7 +262,7 @@ Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeomet
     std::array<Pack, n_dof * n_dof> a;
     for (int i = 0; i < n_dof; ++i)
         for (int j = 0; j < n_dof; ++j)
-            a[i * n_dof + j] = Pack(-0.5) * (derivative(f, i, j) + derivative(f, j, i)) * mass[i / 2] * mass[j / 2];
+            a[i * n_dof + j] = Pack(-0.5) * (tangent[i][j] + tangent[j][i]) * mass[i / 2] * mass[j / 2];
     return largest_eigenvalue_bound<n_dof>(a);
 }
 
@@ -285,8 +273,14 @@ auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
         const Nodal<Pack> u = gather(at.u, pack);
-        omega_squared = xsimd::max(omega_squared, mass_weighted_bound(g, law_force(g, u, load_memory(at, pack))));
-        if (viscous()) damping = xsimd::max(damping, mass_weighted_bound(g, viscous_force(g, u, gather(at.v, pack))));
+        omega_squared =
+            xsimd::max(omega_squared, mass_weighted_bound(g, law_tangent<false>(g, u, load_memory(at, pack), 1.0)));
+        if (viscous()) {
+            ElementMatrix<Element, Pack> matrix;
+            for (auto& row : matrix) row.fill(Pack(0.0));
+            add_viscosity(g, u, gather(at.v, pack), 0.0, 1.0, matrix);
+            damping = xsimd::max(damping, mass_weighted_bound(g, matrix));
+        }
     }
     const auto largest = [](const Pack& pack) {
         std::array<double, pack_width> values;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "materials/elastic_constants.hpp"
+#include "materials/small_strain_stiffness.hpp"
 #include "mesh/composite.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/make_mesh.hpp"

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/small_strain_stiffness.hpp"
+
 namespace gneiss {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "materials/small_strain_stiffness.hpp"
 #include "support/deformation.hpp"
 #include "support/finite_differences.hpp"
 #include "support/laws.hpp"

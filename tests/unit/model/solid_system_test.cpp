@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/small_strain_stiffness.hpp"
 #include "support/one_thread.hpp"
 #include "support/small_solids.hpp"
 
