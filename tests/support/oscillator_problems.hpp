@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "support/oscillator.hpp"
 #include "system/march.hpp"
@@ -17,145 +18,27 @@ constexpr double oscillator_reference_step = 1e-4;
 constexpr double oscillator_floor = 4e-13;
 
 /// Two nodes in the plane, unequal masses, all four degrees of freedom coupled: 2.7 to 8.4 rad/s.
-inline OscillatorModel two_nodes() {
-    OscillatorModel model;
-    model.mass = Vector{{2.0, 2.0, 0.7, 0.7}};
-    model.stiffness = Matrix{{60, -9, -25, 4}, {-9, 50, 3, -20}, {-25, 3, 32, -5}, {4, -20, -5, 41}};
-    model.initial_u = Vector{{0.1, -0.2, 0.15, 0.05}};
-    model.initial_v = Vector{{0.5, 0.3, -1.0, 0.4}};
-    return model;
-}
+OscillatorModel two_nodes();
 
-inline Vector smooth_load(double t, bool) {
-    return Vector{{10 * std::sin(3 * t), 5 * t, -4 * std::cos(5 * t), 8 * std::exp(-t)}};
-}
+Vector smooth_load(double t, bool);
 
 /// sin is convenient: the motion of degree of freedom `dof` starts with a velocity.
-inline PrescribedMotion moving(std::size_t dof, Constraint::Kind kind, double start) {
-    const double amplitude = 0.2, omega = 4;
-    return {{dof, kind},
-            [=](double t) { return start + amplitude * std::sin(omega * t); },
-            [=](double t) { return amplitude * omega * std::cos(omega * t); },
-            [=](double t) { return -amplitude * omega * omega * std::sin(omega * t); }};
-}
+PrescribedMotion moving(std::size_t dof, Constraint::Kind kind, double start);
 
 struct OscillatorProblem {
     const char* name;
     OscillatorModel (*model)();
 };
 
-inline void PrintTo(const OscillatorProblem& problem, std::ostream* out) { *out << problem.name; }
+void PrintTo(const OscillatorProblem& problem, std::ostream* out);
 
-inline const OscillatorProblem oscillator_problems[] = {
-    {"Undamped", [] { return two_nodes(); }},
-    {"Loaded",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.load = smooth_load;
-         return model;
-     }},
-    {"MassDamping",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.damping.mass_proportional = 1.5;
-         return model;
-     }},
-    {"AbsorbingBlocks",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.damping.blocks = {{0, 3.0, 1.2, 5.0}, {1, 2.0, -0.8, 1.0}};
-         return model;
-     }},
-    {"ForceJumpAtAnEvent",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.switch_time = 0.8;
-         model.load = [](double t, bool switched) {
-             return Vector(smooth_load(t, switched) + (switched ? 40.0 : 0.0) * Vector{{1, -1, 0.5, 2}});
-         };
-         return model;
-     }},
-    {"InternalVariables",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.maxwell = Matrix{{1, 0, -1, 0}, {0.5, 1, 0, -1}, {0, 0, 1, 1}};
-         model.maxwell_stiffness = 20;
-         model.relaxation_time = 0.4;
-         return model;
-     }},
-    {"Viscous",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.viscosity = Matrix{{3, -1, -1, 0}, {-1, 2, 0, 0}, {-1, 0, 2, 0.5}, {0, 0, 0.5, 1}};
-         return model;
-     }},
-    {"PrescribedDisplacement",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.prescribed = {moving(1, Constraint::Kind::displacement, -0.2)};
-         return model;
-     }},
-    {"PrescribedVelocity",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.prescribed = {moving(2, Constraint::Kind::velocity, 0.15)};
-         return model;
-     }},
-    {"ViscousWithMovingSupports",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.viscosity = Matrix{{3, -1, -1, 0}, {-1, 2, 0, 0}, {-1, 0, 2, 0.5}, {0, 0, 0.5, 1}};
-         model.prescribed = {moving(0, Constraint::Kind::displacement, 0.1),
-                             moving(3, Constraint::Kind::velocity, 0.05)};
-         return model;
-     }},
-    {"AbsorbingNodeWithOneComponentPrescribed",
-     [] {
-         OscillatorModel model = two_nodes();
-         model.damping.blocks = {{0, 3.0, 1.2, 5.0}, {1, 2.0, -0.8, 1.0}};
-         model.prescribed = {moving(0, Constraint::Kind::velocity, 0.1),
-                             moving(3, Constraint::Kind::displacement, 0.05)};
-         return model;
-     }},
-    {"EverythingAtOnce", [] {
-         OscillatorModel model = two_nodes();
-         model.damping.mass_proportional = 0.8;
-         model.damping.blocks = {{0, 3.0, 1.2, 5.0}};
-         model.switch_time = 0.8;
-         model.load = [](double t, bool switched) {
-             return Vector(smooth_load(t, switched) + (switched ? 40.0 : 0.0) * Vector{{1, -1, 0.5, 2}});
-         };
-         model.maxwell = Matrix{{1, 0, -1, 0}, {0, 1, 0, -1}};
-         model.maxwell_stiffness = 20;
-         model.relaxation_time = 0.4;
-         model.viscosity = Matrix{{1, 0, -1, 0}, {0, 1, 0, -1}, {-1, 0, 1, 0}, {0, -1, 0, 1}};
-         model.prescribed = {moving(3, Constraint::Kind::displacement, 0.05)};
-         return model;
-     }}};
+const std::vector<OscillatorProblem>& oscillator_problems();
 
 /// Distance of two states: displacements, velocities over 5 rad/s, internal forces over 20 N/m.
-inline double distance(const State& p, const State& q) {
-    const auto squared = [](const std::vector<double>& a, const std::vector<double>& b) {
-        return (Oscillator::vector(a) - Oscillator::vector(b)).squaredNorm();
-    };
-    double sum = squared(p.u, q.u) + squared(p.v, q.v) / 25;
-    if (!p.z.empty()) sum += squared(p.z, q.z) / 400;
-    return std::sqrt(sum);
-}
+double distance(const State& p, const State& q);
 
 /// Solves the problem up to oscillator_end with stops on the way, between which there are whole steps of 0.2 s or any
 /// half of that.
-inline State march_oscillator(const Oscillator& system, Integrator& integrator, std::size_t* n_steps = nullptr) {
-    State state = system.initial_state();
-    March march;
-    march.t_end = oscillator_end;
-    march.next_stop = [](double t) { return t < 0.4 ? 0.4 : t < 1.2 ? 1.2 : oscillator_end; };
-    march.after_step = [&](const StepReport& step) {
-        if (n_steps != nullptr) *n_steps += step.n_steps;
-        return true;
-    };
-    march.run(system, integrator, state, false);
-    return state;
-}
+State march_oscillator(const Oscillator& system, Integrator& integrator, std::size_t* n_steps = nullptr);
 
 }  // namespace gneiss::test

@@ -50,7 +50,7 @@ TEST_P(CentralDifferenceOrder, ThreeHalvings_WholeState_IsTwo) {
     EXPECT_LT(before, 1e-4);  // and it is the right solution
 }
 
-INSTANTIATE_TEST_SUITE_P(Problems, CentralDifferenceOrder, testing::ValuesIn(test::oscillator_problems),
+INSTANTIATE_TEST_SUITE_P(Problems, CentralDifferenceOrder, testing::ValuesIn(test::oscillator_problems()),
                          [](const auto& problem) { return std::string(problem.param.name); });
 
 }  // namespace

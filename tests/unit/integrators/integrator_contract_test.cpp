@@ -154,7 +154,7 @@ TEST_P(FixedStepOrder, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(Schemes, FixedStepOrder,
                          testing::Combine(testing::ValuesIn(fixed_schemes()),
-                                          testing::ValuesIn(test::oscillator_problems)),
+                                          testing::ValuesIn(test::oscillator_problems())),
                          [](const auto& instance) {
                              return std::get<0>(instance.param).name + "_" + std::get<1>(instance.param).name;
                          });
@@ -250,7 +250,7 @@ TEST_P(AdaptiveSteps, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(Schemes, AdaptiveSteps,
                          testing::Combine(testing::ValuesIn(adaptive_schemes),
-                                          testing::ValuesIn(test::oscillator_problems)),
+                                          testing::ValuesIn(test::oscillator_problems())),
                          [](const auto& instance) {
                              return std::get<0>(instance.param).name + "_" + std::get<1>(instance.param).name;
                          });

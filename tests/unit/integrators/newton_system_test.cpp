@@ -280,7 +280,7 @@ TEST_P(NewtonSystemOfOscillator, OffItsEquilibrium_SolvesTheDenseSystem) {
     expect_dense_solution(at, gamma, stiffness);
 }
 
-INSTANTIATE_TEST_SUITE_P(Oscillators, NewtonSystemOfOscillator, testing::ValuesIn(test::oscillator_problems),
+INSTANTIATE_TEST_SUITE_P(Oscillators, NewtonSystemOfOscillator, testing::ValuesIn(test::oscillator_problems()),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST(NewtonSystem, NothingFree_OnlyInternalVariablesAreThere) {
