@@ -2,6 +2,7 @@
 
 #include <arkode/arkode_arkstep.h>
 #include <fmt/format.h>
+#include <sundials/sundials_config.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,20 +13,43 @@
 namespace gneiss {
 namespace {
 
-constexpr int none = -1;
+constexpr int none = RungeKuttaTable::none, absent = RungeKuttaTable::absent;
+
+// what the headers at hand do not have is no name
+#if GNEISS_SUNDIALS_HAS_TABLES_OF_6_7
+#define GNEISS_OF_6_7(id) id
+#else
+#define GNEISS_OF_6_7(id) absent
+#endif
+#if GNEISS_SUNDIALS_HAS_TABLES_OF_7_1
+#define GNEISS_OF_7_1(id) id
+#else
+#define GNEISS_OF_7_1(id) absent
+#endif
 
 // knoth_wolke_3_3, of three stages and order 3, has no embedded method
 constexpr std::array tables{
     RungeKuttaTable{"heun_euler_2_1_2", ARKODE_HEUN_EULER_2_1_2, none},
+    RungeKuttaTable{"ralston_euler_2_1_2", GNEISS_OF_7_1(ARKODE_RALSTON_EULER_2_1_2), none, "7.1"},
+    RungeKuttaTable{"explicit_midpoint_euler_2_1_2", GNEISS_OF_7_1(ARKODE_EXPLICIT_MIDPOINT_EULER_2_1_2), none, "7.1"},
+    RungeKuttaTable{"shu_osher_3_2_3", GNEISS_OF_6_7(ARKODE_SHU_OSHER_3_2_3), none, "6.7"},
     RungeKuttaTable{"knoth_wolke_3_3", ARKODE_KNOTH_WOLKE_3_3, none},
     RungeKuttaTable{"bogacki_shampine_4_2_3", ARKODE_BOGACKI_SHAMPINE_4_2_3, none},
     RungeKuttaTable{"zonneveld_5_3_4", ARKODE_ZONNEVELD_5_3_4, none},
+    RungeKuttaTable{"sofroniou_spaletta_5_3_4", GNEISS_OF_6_7(ARKODE_SOFRONIOU_SPALETTA_5_3_4), none, "6.7"},
     RungeKuttaTable{"sayfy_aburub_6_3_4", ARKODE_SAYFY_ABURUB_6_3_4, none},
     RungeKuttaTable{"cash_karp_6_4_5", ARKODE_CASH_KARP_6_4_5, none},
     RungeKuttaTable{"fehlberg_6_4_5", ARKODE_FEHLBERG_6_4_5, none},
     RungeKuttaTable{"dormand_prince_7_4_5", ARKODE_DORMAND_PRINCE_7_4_5, none},
     RungeKuttaTable{"verner_8_5_6", ARKODE_VERNER_8_5_6, none},
+    RungeKuttaTable{"verner_9_5_6", GNEISS_OF_6_7(ARKODE_VERNER_9_5_6), none, "6.7"},
+    RungeKuttaTable{"verner_10_6_7", GNEISS_OF_6_7(ARKODE_VERNER_10_6_7), none, "6.7"},
     RungeKuttaTable{"fehlberg_13_7_8", ARKODE_FEHLBERG_13_7_8, none},
+    RungeKuttaTable{"verner_13_7_8", GNEISS_OF_6_7(ARKODE_VERNER_13_7_8), none, "6.7"},
+    RungeKuttaTable{"verner_16_8_9", GNEISS_OF_6_7(ARKODE_VERNER_16_8_9), none, "6.7"},
+    RungeKuttaTable{"backward_euler_1_1", none, GNEISS_OF_7_1(ARKODE_BACKWARD_EULER_1_1), "7.1"},
+    RungeKuttaTable{"implicit_midpoint_1_2", none, GNEISS_OF_7_1(ARKODE_IMPLICIT_MIDPOINT_1_2), "7.1"},
+    RungeKuttaTable{"implicit_trapezoidal_2_2", none, GNEISS_OF_7_1(ARKODE_IMPLICIT_TRAPEZOIDAL_2_2), "7.1"},
     RungeKuttaTable{"sdirk_2_1_2", none, ARKODE_SDIRK_2_1_2},
     RungeKuttaTable{"billington_3_3_2", none, ARKODE_BILLINGTON_3_3_2},
     RungeKuttaTable{"trbdf2_3_3_2", none, ARKODE_TRBDF2_3_3_2},
@@ -44,6 +68,7 @@ constexpr std::array tables{
     RungeKuttaTable{"kvaerno_7_4_5", none, ARKODE_KVAERNO_7_4_5},
     RungeKuttaTable{"esdirk547l2sa_7_4_5", none, ARKODE_ESDIRK547L2SA_7_4_5},
     RungeKuttaTable{"esdirk547l2sa2_7_4_5", none, ARKODE_ESDIRK547L2SA2_7_4_5},
+    RungeKuttaTable{"ark2_3_1_2", GNEISS_OF_6_7(ARKODE_ARK2_ERK_3_1_2), GNEISS_OF_6_7(ARKODE_ARK2_DIRK_3_1_2), "6.7"},
     RungeKuttaTable{"ark324l2sa_4_2_3", ARKODE_ARK324L2SA_ERK_4_2_3, ARKODE_ARK324L2SA_DIRK_4_2_3},
     RungeKuttaTable{"ark436l2sa_6_3_4", ARKODE_ARK436L2SA_ERK_6_3_4, ARKODE_ARK436L2SA_DIRK_6_3_4},
     RungeKuttaTable{"ark437l2sa_7_3_4", ARKODE_ARK437L2SA_ERK_7_3_4, ARKODE_ARK437L2SA_DIRK_7_3_4},
@@ -63,15 +88,22 @@ OwnedTable coefficients(const RungeKuttaTable& table) {
 
 const RungeKuttaTable& find_table(const std::string& name) {
     const auto found = std::ranges::find_if(tables, [&](const RungeKuttaTable& table) { return name == table.name; });
-    if (found != tables.end()) return *found;
+    if (found != tables.end() && found->here()) return *found;
+    if (found != tables.end())
+        throw InputError("integrator.table",
+                         fmt::format("given `{}`, which needs SUNDIALS {} or newer; this program was "
+                                     "built with {}",
+                                     name, found->since, sundials_version()));
     std::string allowed;
-    for (const RungeKuttaTable& table : tables) allowed += (allowed.empty() ? "" : ", ") + std::string(table.name);
+    for (const RungeKuttaTable& table : tables)
+        if (table.here()) allowed += (allowed.empty() ? "" : ", ") + std::string(table.name);
     throw InputError("integrator.table", fmt::format("given `{}`, must be one of {}", name, allowed));
 }
 
 }  // namespace
 
 std::span<const RungeKuttaTable> runge_kutta_tables() { return tables; }
+std::string sundials_version() { return SUNDIALS_VERSION; }
 
 int RungeKuttaTable::order() const { return coefficients(*this)->q; }
 bool RungeKuttaTable::embedded() const { return coefficients(*this)->p > 0; }

@@ -5,6 +5,7 @@
 // Additive pairs leave the external forces to their explicit half and everything else to the implicit one.
 
 #include <span>
+#include <string>
 
 #include "base/scheme_defaults.hpp"
 #include "integrators/sundials_ode.hpp"
@@ -14,15 +15,23 @@ namespace gneiss {
 /// A table of coefficients, by SUNDIALS' name in small letters: stages, order of the embedded method, order.
 struct RungeKuttaTable {
     enum class Kind { explicit_, implicit, additive };
-    const char* name;
-    int explicit_id, implicit_id;  ///< SUNDIALS' numbers; -1: none
+    static constexpr int none = -1, absent = -2;
 
-    Kind kind() const { return implicit_id < 0 ? Kind::explicit_ : explicit_id < 0 ? Kind::implicit : Kind::additive; }
-    int order() const;
-    bool embedded() const;  ///< has a second method that estimates the error
+    const char* name;
+    int explicit_id, implicit_id;  ///< SUNDIALS' numbers; none: it has no such half; absent: this SUNDIALS has it not
+    const char* since = nullptr;   ///< version of SUNDIALS that first had it; null: every one that gneiss compiles with
+
+    Kind kind() const {
+        return implicit_id == none ? Kind::explicit_ : explicit_id == none ? Kind::implicit : Kind::additive;
+    }
+    bool here() const { return explicit_id != absent && implicit_id != absent; }
+    int order() const;      ///< of a table that is here
+    bool embedded() const;  ///< has a second method that estimates the error; of a table that is here
 };
 
 std::span<const RungeKuttaTable> runge_kutta_tables();
+/// Version of the SUNDIALS that this program was built with.
+std::string sundials_version();
 
 class Arkode final : public SundialsOde {
 public:

@@ -21,13 +21,30 @@ std::vector<double> symmetric(std::vector<double> first_ones) {
 }
 
 /// Limits: of single steps exact, of compositions rounded down; the tests find them from the amplification.
-const std::array<VerletComposition, 4>& compositions() {
+const std::array<VerletComposition, 7>& compositions() {
     const double yoshida = 1 / (2 - std::cbrt(2.0)), suzuki = 1 / (4 - std::cbrt(4.0));
-    static const std::array<VerletComposition, 4> all{
+    static const std::array<VerletComposition, 7> all{
         {{"single", 2, {1}, {2, 1}},
          {"yoshida_3", 4, symmetric({yoshida}), {1.5734, 0.932}},
          {"suzuki_5", 4, symmetric({suzuki, suzuki}), {2.7209, 3.022}},
-         {"mclachlan_5", 4, symmetric({0.28, 0.62546642846767004501}), {3.0181, 2.445}}}};
+         {"mclachlan_5", 4, symmetric({0.28, 0.62546642846767004501}), {3.0181, 2.445}},
+         {"yoshida_7",
+          6,
+          symmetric({0.78451361047755726382, 0.23557321335935813368, -1.17767998417887100695}),
+          {2.2690, 1.61}},
+         {"suzuki_umeno_15",
+          8,
+          symmetric({0.74167036435061295345, -0.40910082580003159400, 0.19075471029623837995, -0.57386247111608226666,
+                     0.29906418130365592384, 0.33462491824529818378, 0.31529309239676659663}),
+          {3.3932, 2.12}},
+         {"sofroniou_spaletta_35",
+          10,
+          symmetric({0.07879572252168641926, 0.31309610341510852776, 0.02791838323507806611, -0.22959284159390709415,
+                     0.13096206107716486317, -0.26973340565451071434, 0.07497334315589143567, 0.11199342399981020489,
+                     0.36613344954622675119, -0.39910563013603589788, 0.10308739852747107732, 0.41143087395589023782,
+                     -0.00486636058313526176, -0.39203335370863990645, 0.05194250296244964704, 0.05066509075992449634,
+                     0.04967437063972987905}),
+          {3.1410, 4.35}}}};
     return all;
 }
 

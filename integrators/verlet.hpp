@@ -11,7 +11,9 @@
 //
 // is undone by a step of length -h. A step of the scheme is one of them, of order 2, or several, of lengths g_i dt with
 // sum g_i = 1: of order 4 where sum g_i^3 = 0, which takes g_i < 0  [Yoshida, Phys. Lett. A 150 (1990) 262; Forest and
-// Ruth, Physica D 43 (1990) 105; Suzuki, Phys. Lett. A 146 (1990) 319; McLachlan, SIAM J. Sci. Comput. 16 (1995) 151].
+// Ruth, Physica D 43 (1990) 105; Suzuki, Phys. Lett. A 146 (1990) 319; McLachlan, SIAM J. Sci. Comput. 16 (1995) 151],
+// of orders 6, 8 and 10 where more sums vanish  [Yoshida, as above; Suzuki and Umeno, Springer Proc. Phys. 76 (1993)
+// 74; Sofroniou and Spaletta, Optim. Methods Softw. 20 (2005) 597].
 //
 // z follows its exact update along every drift, back in time too. Forces that depend on v are evaluated anew until they
 // are symmetric to the scheme's order. What cannot be undone (damage, friction, restitution) refuses steps back.

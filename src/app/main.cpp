@@ -18,6 +18,7 @@
 #include "app/threads.hpp"
 #include "base/errors.hpp"
 #include "base/suggest.hpp"
+#include "integrators/arkode.hpp"
 #include "io/deck/deck.hpp"
 #include "io/output/progress_line.hpp"
 #include "io/output/version.hpp"
@@ -28,16 +29,31 @@ namespace {
 using namespace gneiss;
 
 /// @param topic  empty: everything
+/// What a deck can name, and which of it this program lacks.
+std::vector<Listing> listings_of_this_build() {
+    std::vector<Listing> listings = deck_listings();
+    for (Listing& listing : listings) {
+        if (listing.where != "integrator.table") continue;
+        for (const RungeKuttaTable& table : runge_kutta_tables()) {
+            const auto entry = std::ranges::find(listing.entries, table.name, &Listing::Entry::name);
+            if (!table.here()) entry->meaning += ": not here, this program has SUNDIALS " + sundials_version();
+        }
+    }
+    return listings;
+}
+
 void list(const std::string& topic) {
-    const std::vector<Listing> listings = deck_listings();
+    const std::vector<Listing> listings = listings_of_this_build();
     std::vector<std::string_view> topics;
     std::string text;
     for (const Listing& listing : listings) {
         topics.push_back(listing.topic);
         if (!topic.empty() && listing.topic != topic) continue;
         text += fmt::format("{}{}  ({} = ...)\n", text.empty() ? "" : "\n", listing.topic, listing.where);
+        std::size_t width = 18;
+        for (const Listing::Entry& entry : listing.entries) width = std::max(width, entry.name.size());
         for (const Listing::Entry& entry : listing.entries)
-            text += fmt::format("  {:<20}{}\n", entry.name, entry.meaning);
+            text += fmt::format("  {:<{}}  {}\n", entry.name, width, entry.meaning);
     }
     if (text.empty())
         throw InputError("gneiss list", fmt::format("given `{}`, must be one of {}{}", topic, fmt::join(topics, ", "),

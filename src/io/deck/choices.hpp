@@ -111,7 +111,7 @@ inline constexpr std::array<Choice<AmplitudeOptions::Kind>, 5> amplitudes{{
 
 inline const std::array<Choice<std::string>, 13> integrators{{
     {"central_difference", "central_difference", "explicit leapfrog of second order, step from the stability bound"},
-    {"verlet", "verlet", "explicit compositions of Störmer-Verlet steps, symmetric in time, order 2 or 4"},
+    {"verlet", "verlet", "explicit compositions of Störmer-Verlet steps, symmetric in time, order 2 to 10"},
     {"noh_bathe", "noh_bathe", "explicit, two sub-steps, order 2, damps frequencies near its limit (Noh and Bathe)"},
     {"generalized_alpha", "generalized_alpha", "implicit, order 2, damps high frequencies alone (Chung and Hulbert)"},
     {"newmark", "newmark", "implicit, order 2 where `gamma` is 1/2"},
@@ -136,17 +136,28 @@ inline constexpr std::array<Choice<bool>, 2> iterations{{
     {"functional", true, "fixed point, without matrices: steps stay near those of explicit schemes"},
 }};
 
-inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
+inline const std::array<Choice<std::string>, 45> runge_kutta_tables{{
     {"heun_euler_2_1_2", "heun_euler_2_1_2", "explicit, order 2"},
+    {"ralston_euler_2_1_2", "ralston_euler_2_1_2", "explicit, order 2 (SUNDIALS 7.1)"},
+    {"explicit_midpoint_euler_2_1_2", "explicit_midpoint_euler_2_1_2", "explicit, order 2 (SUNDIALS 7.1)"},
+    {"shu_osher_3_2_3", "shu_osher_3_2_3", "explicit, order 3 (SUNDIALS 6.7)"},
     {"knoth_wolke_3_3", "knoth_wolke_3_3", "explicit, order 3, fixed steps only"},
     {"bogacki_shampine_4_2_3", "bogacki_shampine_4_2_3", "explicit, order 3"},
     {"zonneveld_5_3_4", "zonneveld_5_3_4", "explicit, order 4"},
+    {"sofroniou_spaletta_5_3_4", "sofroniou_spaletta_5_3_4", "explicit, order 4 (SUNDIALS 6.7)"},
     {"sayfy_aburub_6_3_4", "sayfy_aburub_6_3_4", "explicit, order 4"},
     {"cash_karp_6_4_5", "cash_karp_6_4_5", "explicit, order 5"},
     {"fehlberg_6_4_5", "fehlberg_6_4_5", "explicit, order 5"},
     {"dormand_prince_7_4_5", "dormand_prince_7_4_5", "explicit, order 5"},
     {"verner_8_5_6", "verner_8_5_6", "explicit, order 6"},
+    {"verner_9_5_6", "verner_9_5_6", "explicit, order 6 (SUNDIALS 6.7)"},
+    {"verner_10_6_7", "verner_10_6_7", "explicit, order 7 (SUNDIALS 6.7)"},
     {"fehlberg_13_7_8", "fehlberg_13_7_8", "explicit, order 8"},
+    {"verner_13_7_8", "verner_13_7_8", "explicit, order 8 (SUNDIALS 6.7)"},
+    {"verner_16_8_9", "verner_16_8_9", "explicit, order 9 (SUNDIALS 6.7)"},
+    {"backward_euler_1_1", "backward_euler_1_1", "implicit, order 1, fixed steps only (SUNDIALS 7.1)"},
+    {"implicit_midpoint_1_2", "implicit_midpoint_1_2", "implicit, order 2, fixed steps only (SUNDIALS 7.1)"},
+    {"implicit_trapezoidal_2_2", "implicit_trapezoidal_2_2", "implicit, order 2, fixed steps only (SUNDIALS 7.1)"},
     {"sdirk_2_1_2", "sdirk_2_1_2", "implicit, order 2"},
     {"billington_3_3_2", "billington_3_3_2", "implicit, order 2"},
     {"trbdf2_3_3_2", "trbdf2_3_3_2", "implicit, order 2"},
@@ -165,6 +176,7 @@ inline const std::array<Choice<std::string>, 33> runge_kutta_tables{{
     {"kvaerno_7_4_5", "kvaerno_7_4_5", "implicit, order 5"},
     {"esdirk547l2sa_7_4_5", "esdirk547l2sa_7_4_5", "implicit, order 5"},
     {"esdirk547l2sa2_7_4_5", "esdirk547l2sa2_7_4_5", "implicit, order 5"},
+    {"ark2_3_1_2", "ark2_3_1_2", "additive, order 2 (SUNDIALS 6.7)"},
     {"ark324l2sa_4_2_3", "ark324l2sa_4_2_3", "additive, order 3"},
     {"ark436l2sa_6_3_4", "ark436l2sa_6_3_4", "additive, order 4"},
     {"ark437l2sa_7_3_4", "ark437l2sa_7_3_4", "additive, order 4"},
@@ -189,11 +201,14 @@ inline constexpr std::array<Choice<bool>, 2> verlet_forms{{
     {"position", true, "drift, kick, drift: forces in the middle of a sub-step, the leapfrog of positions"},
 }};
 
-inline const std::array<Choice<std::string>, 4> verlet_compositions{{
+inline const std::array<Choice<std::string>, 7> verlet_compositions{{
     {"single", "single", "one step, order 2"},
     {"yoshida_3", "yoshida_3", "3 sub-steps, order 4 (Yoshida; Forest and Ruth)"},
     {"suzuki_5", "suzuki_5", "5 sub-steps, order 4 (Suzuki)"},
     {"mclachlan_5", "mclachlan_5", "5 sub-steps, order 4 (McLachlan)"},
+    {"yoshida_7", "yoshida_7", "7 sub-steps, order 6 (Yoshida)"},
+    {"suzuki_umeno_15", "suzuki_umeno_15", "15 sub-steps, order 8 (Suzuki and Umeno)"},
+    {"sofroniou_spaletta_35", "sofroniou_spaletta_35", "35 sub-steps, order 10 (Sofroniou and Spaletta)"},
 }};
 
 inline constexpr std::array<Choice<FractureOptions::Criterion>, 3> crack_criteria{{

@@ -15,8 +15,8 @@ class Schemes(unittest.TestCase):
     def test_TablesAndOrders_AreThoseOfTheProgram(self):
         listed = REFERENCE[REFERENCE.index("\n`table`:\n"):]
         listed = listed[:listed.index("\n\n`")]
-        documented = {name: (kind, int(order)) for name, kind, order in
-                      re.findall(r'^- `"(\w+)"`: (explicit|implicit|additive), order (\d)', listed, re.M)}
+        documented = {name: (kind, int(order)) for name, kind, order in    # but those that not every SUNDIALS has
+                      re.findall(r'^- `"(\w+)"`: (explicit|implicit|additive), order (\d)(?!.*\(SUNDIALS)', listed, re.M)}
         self.assertEqual(documented, {name: (kind, order) for kind, tables in TABLES.items()
                                       for name, order in tables.items()})
 
@@ -27,7 +27,8 @@ class Schemes(unittest.TestCase):
 
     def test_Compositions_AreThoseOfTheProgram(self):
         listed = re.search(r"\| `composition` \| one of \| – \| ([^|]*)\|", REFERENCE)[1]
-        self.assertEqual(re.findall(r'"(\w+)"', listed), list(COMPOSITIONS))
+        listed = re.findall(r'"(\w+)"', listed)
+        self.assertEqual(listed[:len(COMPOSITIONS)], list(COMPOSITIONS))    # those above order 4 are left out
 
     def test_EveryDeck_HasEveryScheme(self):
         for name, deck in decks("full").items():

@@ -3,8 +3,10 @@
 #include "app/make_integrator.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/errors.hpp"
 #include "integrators/arkode.hpp"
 #include "integrators/mri.hpp"
 #include "integrators/verlet.hpp"
@@ -13,15 +15,43 @@
 namespace gneiss {
 namespace {
 
+using testing::HasSubstr;
+
 TEST(MakeIntegrator, RungeKuttaTables_AreThoseOfTheDeckWithTheirOrders) {
     const auto tables = runge_kutta_tables();
     ASSERT_EQ(tables.size(), deck::runge_kutta_tables.size());
     const char* const kinds[] = {"explicit", "implicit", "additive"};
     for (std::size_t k = 0; k < tables.size(); ++k) {
         EXPECT_EQ(deck::runge_kutta_tables[k].name, tables[k].name);
-        EXPECT_EQ(deck::runge_kutta_tables[k].meaning,
-                  fmt::format("{}, order {}{}", kinds[static_cast<int>(tables[k].kind())], tables[k].order(),
-                              tables[k].embedded() ? "" : ", fixed steps only"));
+        const std::string kind = fmt::format("{}, order ", kinds[static_cast<int>(tables[k].kind())]);
+        const std::string since = tables[k].since ? fmt::format(" (SUNDIALS {})", tables[k].since) : "";
+        const std::string_view meaning = deck::runge_kutta_tables[k].meaning;
+        if (tables[k].here())
+            EXPECT_EQ(meaning, fmt::format("{}{}{}{}", kind, tables[k].order(),
+                                           tables[k].embedded() ? "" : ", fixed steps only", since));
+        else
+            EXPECT_TRUE(meaning.starts_with(kind) && meaning.ends_with(since)) << tables[k].name;
+    }
+}
+
+TEST(MakeIntegrator, TableThatThisSundialsLacks_IsRefusedWithTheVersionThatHasIt) {
+    for (const RungeKuttaTable& table : runge_kutta_tables()) {
+        IntegratorOptions options;
+        options.type = "arkode";
+        options.table = table.name;
+        options.dt = 1e-3;
+        if (table.here()) {
+            EXPECT_NO_THROW(make_integrator(options)) << table.name;
+            continue;
+        }
+        try {
+            make_integrator(options);
+            FAIL() << table.name;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(fmt::format("which needs SUNDIALS {} or newer; this program was built "
+                                                            "with {}",
+                                                            table.since, sundials_version())));
+        }
     }
 }
 

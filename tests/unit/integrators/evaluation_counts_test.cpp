@@ -99,7 +99,7 @@ Made arkode(const RungeKuttaTable& table) {
 std::vector<const RungeKuttaTable*> tables_of(RungeKuttaTable::Kind kind) {
     std::vector<const RungeKuttaTable*> tables;
     for (const RungeKuttaTable& table : runge_kutta_tables())
-        if (table.kind() == kind) tables.push_back(&table);
+        if (table.kind() == kind && table.here()) tables.push_back(&table);
     return tables;
 }
 

@@ -67,10 +67,11 @@ std::vector<FixedScheme> fixed_schemes() {
                            }});
     }
     for (const VerletComposition& composition : verlet_compositions()) {
+        const double longest[] = {0, 0, 0.0125, 0, 0.025, 0, 0.05, 0, 0.1, 0, 0.2};
         for (const Verlet::Form form : {Verlet::Form::velocity, Verlet::Form::position}) {
             const char* const name = form == Verlet::Form::velocity ? "VelocityVerlet_" : "PositionVerlet_";
             schemes.push_back(
-                {std::string(name) + composition.name, composition.order, composition.order == 2 ? 0.0125 : 0.025,
+                {std::string(name) + composition.name, composition.order, longest[composition.order],
                  [&composition, form](double dt) {
                      return std::make_unique<Verlet>(Verlet::Options{{.safety = 1, .dt = dt}, form, composition.name});
                  }});
@@ -87,7 +88,8 @@ std::vector<FixedScheme> fixed_schemes() {
     }
     for (const RungeKuttaTable& table : runge_kutta_tables()) {
         // from where the leading error rules to where round-off is still far
-        const double longest[] = {0, 0, 0.0125, 0.0125, 0.025, 0.025, 0.025, 0, 0.1};
+        const double longest[] = {0, 0.00625, 0.0125, 0.0125, 0.025, 0.025, 0.025, 0.05, 0.1, 0.1};
+        if (!table.here()) continue;
         schemes.push_back({table.name, table.order(), longest[table.order()], [&table](double dt) {
                                Arkode::Options options;
                                options.table = table.name;

@@ -44,9 +44,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryVerlet, testing::ValuesIn(kinds()), [](cons
 });
 
 TEST_P(EveryVerlet, StabilityLimit_IsWhereStepsBeginToGrow) {
-    const double limit = test::stability_limit([&](double dt) { return GetParam().make({.safety = 1, .dt = dt}); }, 4);
+    // up to just beyond it: sofroniou_spaletta_35 is unstable on a narrow interval there, and then stable up to 5.97
+    const double expected = GetParam().composition.limit.omega_dt;
+    const double limit =
+        test::stability_limit([&](double dt) { return GetParam().make({.safety = 1, .dt = dt}); }, expected + 5e-4);
     // the table rounds down in its fifth digit; growth of 1e-6 a step begins that much later
-    EXPECT_NEAR(limit, GetParam().composition.limit.omega_dt, 2e-4);
+    EXPECT_NEAR(limit, expected, 2e-4);
 }
 
 TEST_P(EveryVerlet, DampedInAnyWay_AtTheCriticalStep_StaysBounded) {
@@ -55,14 +58,11 @@ TEST_P(EveryVerlet, DampedInAnyWay_AtTheCriticalStep_StaysBounded) {
 }
 
 TEST_P(EveryVerlet, SubSteps_FulfilTheConditionsOfTheirOrder) {
-    double sum = 0, cubes = 0;
-    for (const double part : GetParam().composition.sub_steps) {
-        sum += part;
-        cubes += part * part * part;
-    }
-    EXPECT_NEAR(sum, 1, 8 * eps);
-    if (GetParam().composition.order == 4) {
-        EXPECT_NEAR(cubes, 0, 32 * eps);
+    // of those of order p the ones on single sub-steps: their odd powers up to p - 1 vanish
+    for (int power = 1; power < GetParam().composition.order; power += 2) {
+        double sum = 0;
+        for (const double part : GetParam().composition.sub_steps) sum += std::pow(part, power);
+        EXPECT_NEAR(sum, power == 1 ? 1 : 0, 32 * eps) << "power " << power;
     }
 }
 
