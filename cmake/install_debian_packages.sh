@@ -85,18 +85,14 @@ fi
 
 log=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX.log")
 
-# What apt says goes to the log. Of its status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...", one in every
-# tenth of the way is shown; those of the package lists, which count nothing useful, are not. By the shell, which reads
-# lines as they come: mawk waits for a block of them.
+# Of apt's status lines, "pmstatus:PACKAGE:PERCENT:WHAT" and "dlstatus:...", one in every tenth of the way is shown; those
+# of the package lists, which count nothing useful, are not. By the shell, which reads lines as they come: mawk waits for a
+# block of them.
 show_progress() {
     local quiet=$1 line status percent what tenth
     local -A shown=()
     while IFS= read -r line || [[ -n $line ]]; do
-        if [[ ! $line =~ ^(dl|pm)status: ]]; then
-            printf '%s\n' "$line" >>"$log"
-            continue
-        fi
-        ((!quiet)) || continue
+        ((!quiet)) && [[ $line =~ ^(dl|pm)status: ]] || continue
         IFS=: read -r status _ percent _ <<<"$line"
         what=installed
         [[ $status != dlstatus ]] || what=downloaded
@@ -108,9 +104,12 @@ show_progress() {
     done
 }
 
+# All that apt, dpkg and the packages say goes into the log, a file: a pipe that is not emptied fast enough fails their
+# scripts on a busy machine ("echo: I/O error"). Status lines have a pipe of their own, opened behind sudo, which hands
+# on three descriptors.
 apt() {
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y \
-        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=1 "$@" </dev/null 2>&1 \
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c 'exec "$@" 3>&1 1>&2' sh \
+        apt-get -q -y -o Acquire::Retries=3 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=3 "$@" </dev/null 2>>"$log" \
         | show_progress "$([[ $1 == update ]] && echo 1 || echo 0)"
 }
 

@@ -36,6 +36,11 @@ if ((simulate)); then
     cat "$here/removals" 2>/dev/null
     printf 'Inst %s (1 Debian)\\n' "${packages[@]}"
 else
+    echo "what packages say while they are set up"
+    [[ -f /dev/stdout ]] || { echo "stdout is no file" >&2; exit 100; }
+    for percent in 0 4.2 50 100; do
+        echo "pmstatus:somepackage:$percent:Installing" >&3
+    done
     printf '%s\\n' "${packages[@]}" >>"$here/installed"
 fi
 """
@@ -82,6 +87,13 @@ class Machine(unittest.TestCase):
         done = self.install("run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(self.installed()), sorted(self.packages("run")))
+
+    def test_progress_is_shown_in_tenths_and_what_packages_say_is_not(self) -> None:
+        done = self.install("run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shown = [line.split()[-2] for line in done.stdout.splitlines() if "installed" in line]
+        self.assertEqual(shown, ["0", "50", "100"])
+        self.assertNotIn("what packages say", done.stdout)
 
     def test_what_is_there_is_not_asked_for_again(self) -> None:
         run = self.packages("run")
