@@ -53,6 +53,16 @@ inline std::uint64_t lane_bits(const Pack::batch_bool_type& condition) {
 #endif
 }
 
+/// Upper half to lower half until one is left: the same bits under every version of xsimd, whose own sum has changed its
+/// name.
+inline double sum_of_lanes(const Pack& pack) {
+    alignas(pack_alignment) std::array<double, pack_width> lanes;
+    pack.store_aligned(lanes.data());
+    for (std::size_t width = pack_width / 2; width > 0; width /= 2)
+        for (std::size_t i = 0; i < width; ++i) lanes[i] += lanes[i + width];
+    return lanes[0];
+}
+
 /// Gathers W pairs into an x and a y pack.
 /// @param index  PairNumber or PairBytes, shape (pack_width)
 template <class Index>

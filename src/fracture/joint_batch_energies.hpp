@@ -39,7 +39,7 @@ void JointBatch<Law, extrinsic>::add_stored(const Trial& accepted, std::span<con
                        Law::stored_energy(of(history, pack, i), at, motion.opening[i], motion.slip[i]);
             }
         }
-        return xsimd::hadd(sum);
+        return sum_of_lanes(sum);
     });
 }
 
@@ -56,7 +56,7 @@ void JointBatch<Law, extrinsic>::add_dissipated(std::span<const double> from, st
                     sum += weight(from, pack, before) * (dissipated(history_of(to, pack, i)) - dissipated(before));
                 }
             }
-            return xsimd::hadd(sum);
+            return sum_of_lanes(sum);
         });
     };
     energies.fracture += sum_of([](const History& at) { return at.fracture(); });

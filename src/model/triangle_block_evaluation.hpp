@@ -247,7 +247,7 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
             viscous_power += add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
         }
     }
-    return {xsimd::hadd(stored), xsimd::hadd(stress_power), xsimd::hadd(viscous_power)};
+    return {sum_of_lanes(stored), sum_of_lanes(stress_power), sum_of_lanes(viscous_power)};
 }
 
 template <class Element, Sampling sampling, class Law>

@@ -41,7 +41,7 @@ inline MachinePeaks measure_peaks() {
             for (int k = 0; k < chains; ++k) x[k] = xsimd::fma(x[k], factor, term);
         Pack sum(0.0);
         for (int k = 0; k < chains; ++k) sum += x[k];
-        sink = xsimd::hadd(sum);
+        sink = sum_of_lanes(sum);
     });
     (void)sink;
     return {3.0 * n * sizeof(double) / triad, 2.0 * chains * rounds * pack_width / chained};

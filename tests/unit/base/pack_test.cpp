@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -78,6 +79,14 @@ TYPED_TEST(Pairs, ScatterToRepeatedIndices_AddUpInTheOrderOfTheLanes) {
         scatter_add_pairs(values.data(), this->indices(nodes).data(), x, y);
         EXPECT_EQ(values, expected) << "bit by bit: same sums in the same order";
     }
+}
+
+TEST(Pack, SumOfLanes_AddsEachOnce) {
+    alignas(pack_alignment) std::array<double, pack_width> lanes;
+    for (std::size_t lane = 0; lane < pack_width; ++lane) lanes[lane] = std::ldexp(1.0, static_cast<int>(3 * lane));
+    double sum = 0;
+    for (const double lane : lanes) sum += lane;  // powers of two: exact in any order
+    EXPECT_EQ(sum_of_lanes(Pack::load_aligned(lanes.data())), sum);
 }
 
 }  // namespace
