@@ -38,7 +38,7 @@ struct TriangleGeometry {
 
     const Sub& of(int s) const { return sub[Element::similar ? 0 : s]; }
     /// True if the sub-triangle is the stored one turned by 180 degrees: its K has the other sign.
-    static constexpr bool is_turned(int s) { return Element::similar && s == Element::central; }
+    static constexpr bool is_turned(int s) { return Element::similar && Element::n_sub > 1 && s == Element::central; }
     /// The mean of values of the sub-triangles by volume.
     template <class T>
     T mean(const std::array<T, Element::n_sub>& values) const {
