@@ -124,7 +124,7 @@ TEST_P(NamedSidesOf, WhereCracksMayBe_AllOtherSidesStayBonded) {
         error_of({}, {}, {{"acros"}}),
         AllOf(HasSubstr("[fracture] on: the mesh has no region and no line inside the solid of the name \"acros\""),
               HasSubstr("did you mean `across`?")));
-    EXPECT_THAT(error_of({}, {}, {{}}), HasSubstr("no side may crack"));
+    EXPECT_THAT(error_of({}, {}, std::vector<std::string>{}), HasSubstr("no side may crack"));
 }
 
 TEST_P(NamedSidesOf, SideClaimedTwice_NamesBoth) {
