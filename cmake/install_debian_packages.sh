@@ -53,7 +53,7 @@ if ((list)); then
 fi
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-    fail "this system has no apt. gneiss is developed on Debian 12 and 13; elsewhere install what these packages
+    fail "this system has no apt. gneiss is developed on Debian 12; elsewhere install what these packages
 provide, then configure with CMake yourself (CONTRIBUTING.md): ${packages[*]}"
 fi
 
@@ -127,7 +127,7 @@ for package in "${missing[@]}"; do
     apt-cache show --no-all-versions "$package" >/dev/null 2>&1 || unknown+=("$package")
 done
 [[ ${#unknown[@]} -eq 0 ]] || apt_failed "apt's lists do not have ${unknown[*]}. Is the archive within reach? gneiss is
-developed on Debian 12 and 13"
+developed on Debian 12"
 
 # What apt would do, told without doing it: a package of the user's that would have to go is theirs to give up.
 plan=$(LC_ALL=C apt-get -s -o APT::Get::Show-User-Simulation-Note=0 --no-install-recommends install "${missing[@]}" 2>&1) \

@@ -57,10 +57,13 @@ root=$(realpath "$folder")/gneiss-$suite
 clean_up() {
     local status=$?
     trap - EXIT
-    if mountpoint -q "$root/proc" && ! umount -R "$root/proc"; then
-        say "$root/proc cannot be unmounted: $root is left as it is"
-        exit 1
-    fi
+    local mounted
+    for mounted in "$root/dev/pts" "$root/proc"; do
+        if mountpoint -q "$mounted" && ! umount -R "$mounted"; then
+            say "$mounted cannot be unmounted: $root is left as it is"
+            exit 1
+        fi
+    done
     if ((keep)); then
         say "left in $root: mount -t proc proc $root/proc && chroot $root; unmount before you delete it"
     else
@@ -85,6 +88,7 @@ mmdebstrap --variant=minbase --mode=root "${proxies[@]/#/--aptopt=}" "$suite" "$
     | grep --line-buffered '^[IE]:' | sed -u 's/^/      /' || fail "mmdebstrap failed"
 cp --dereference /etc/hosts /etc/resolv.conf "$root/etc/"
 mount -t proc proc "$root/proc"
+mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"  # tests of progress open a terminal
 git clone --quiet --no-hardlinks "file://$PWD" "$root/root/gneiss" || fail "the tree cannot be cloned"
 say "bare: $(packages | wc -l) packages, $(nproc) processors; tree at $(git rev-parse --short HEAD)"
 

@@ -32,13 +32,13 @@ class Installed(unittest.TestCase):
         source = Path(self.folder.name) / name
         source.mkdir()
         (source / "CMakeLists.txt").write_text(text)
-        return subprocess.run(["cmake", "-S", source, "-B", source / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}"],
-                              text=True, capture_output=True)
+        return subprocess.run(["cmake", "-G", "Ninja", "-S", source, "-B", source / "build",
+                               f"-DCMAKE_PREFIX_PATH={self.prefix}"], text=True, capture_output=True)
 
     def test_example_computes_the_wave_of_the_closed_form(self) -> None:
         build = Path(self.folder.name) / "example"
-        run("cmake", "-S", ROOT / "examples/using_with_cmake", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
-            "-DCMAKE_BUILD_TYPE=Release")
+        run("cmake", "-G", "Ninja", "-S", ROOT / "examples/using_with_cmake", "-B", build,
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
         run("cmake", "--build", build)
         said = run(build / "pulse")
         kinetic, stored, error = map(float, re.fullmatch(
