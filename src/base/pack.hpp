@@ -53,8 +53,8 @@ inline std::uint64_t lane_bits(const Pack::batch_bool_type& condition) {
 #endif
 }
 
-/// Upper half to lower half until one is left: the same bits under every version of xsimd, whose own sum has changed its
-/// name.
+/// Upper half to lower half until one is left: the same bits under every version of xsimd, whose own sum has changed
+/// its name.
 inline double sum_of_lanes(const Pack& pack) {
     alignas(pack_alignment) std::array<double, pack_width> lanes;
     pack.store_aligned(lanes.data());

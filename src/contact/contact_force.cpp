@@ -167,7 +167,8 @@ LoadedPairs Contact::load(std::size_t pack, std::span<const double> history) con
     }
     LoadedPairs pairs;
     const std::array<Vec2<Pack>*, nodes_per_candidate> at{&pairs.a, &pairs.b, &pairs.x[0], &pairs.x[1], &pairs.x[2]};
-    for (std::size_t k = 0; k < nodes_per_candidate; ++k) gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
+    for (std::size_t k = 0; k < nodes_per_candidate; ++k)
+        gather_pairs(x_.data(), nodes + k * pack_width, at[k]->x, at[k]->y);
     for (std::size_t k = 0; k < 3; ++k)
         gather_pairs(bodies_.reference().data(), nodes + (k + 2) * pack_width, pairs.target.reference[k].x,
                      pairs.target.reference[k].y);

@@ -89,8 +89,9 @@ const Section<IntegratorOptions>& integrator_section() {
                          "need it"}),
          choice("form", &I::position_form, verlet_forms,
                 {.only_for = verlet, .meaning = "where in a sub-step forces are taken"}),
-         choice("composition", &I::composition, verlet_compositions,
-                {.only_for = verlet, .meaning = "sub-steps that a step is made of; above order 2 some go back in time"}),
+         choice(
+             "composition", &I::composition, verlet_compositions,
+             {.only_for = verlet, .meaning = "sub-steps that a step is made of; above order 2 some go back in time"}),
          number("split", &I::split,
                 {.range = closed(0.5, 0.7),
                  .only_for = {{"type", {"noh_bathe"}}},
