@@ -1,6 +1,6 @@
 # One interface target carries every flag that our own code is compiled with. The architecture flag belongs here
-# and nowhere else: the alignment of Eigen's matrices and the width of packs, and so the ABI, follow from it. That is why whoever links an
-# installed gneiss gets it too; all but that is for this build.
+# and nowhere else: the alignment of Eigen's matrices and the width of packs, and so the ABI, follow from it. That is why
+# whoever links an installed gneiss gets it too; all but that is for this build.
 add_library(gneiss_options INTERFACE)
 add_library(gneiss::options ALIAS gneiss_options)
 target_compile_features(gneiss_options INTERFACE cxx_std_20)

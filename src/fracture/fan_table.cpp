@@ -7,7 +7,6 @@
 #include "base/index.hpp"
 
 namespace gneiss {
-namespace {}  // namespace
 
 void FanTable::require(std::int32_t node, ElementResponse& response) {
     if (ranges_.size() < mesh_.n_nodes()) ranges_.resize(mesh_.n_nodes());

@@ -7,7 +7,6 @@
 #include "fracture/envelope.hpp"
 
 namespace gneiss {
-namespace {}  // namespace
 
 double SideCriterion::utilisation_of(const State& state, std::int32_t side) {
     const InnerSide& inner = parts_.inner.sides()[index(side)];
