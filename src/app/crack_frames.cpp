@@ -20,9 +20,9 @@ std::size_t count_fragments(const Cracking& cracking, const State& state) {
 }
 
 CrackFrames::CrackFrames(const std::filesystem::path& folder, const Cracking& cracking,
-                         std::optional<double> restart_time)
+                         std::optional<double> restart_time, VtuData data)
     : cracking_(cracking),
-      series_(folder, {}, restart_time, "cracks"),
+      series_(folder, {}, restart_time, "cracks", data),
       fragments_(folder / "fragments.csv",
                  {{"t", "s"},
                   {"fragment"},

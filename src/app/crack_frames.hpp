@@ -25,7 +25,8 @@ std::size_t count_fragments(const Cracking& cracking, const State& state);
 class CrackFrames {
 public:
     /// @param restart_time  as in FieldSeries
-    CrackFrames(const std::filesystem::path& folder, const Cracking& cracking, std::optional<double> restart_time);
+    CrackFrames(const std::filesystem::path& folder, const Cracking& cracking, std::optional<double> restart_time,
+                VtuData data = VtuData::raw);
 
     void write(const State& state, std::size_t step);
     void flush() { fragments_.flush(); }

@@ -35,8 +35,11 @@ FieldTriangles::FieldTriangles(const Mesh& mesh) {
 
 }  // namespace
 
-FieldFrames::FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time)
-    : mesh_(mesh), n_nodes_(mesh.n_nodes()), series_(folder, FieldTriangles(mesh).on(mesh), restart_time) {}
+FieldFrames::FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time,
+                         VtuData data)
+    : mesh_(mesh),
+      n_nodes_(mesh.n_nodes()),
+      series_(folder, FieldTriangles(mesh).on(mesh), restart_time, "fields", data) {}
 
 void FieldFrames::write(const SolidSystem& system, const State& state, std::size_t step) {
     if (mesh_.n_nodes() != n_nodes_) series_.set_mesh(FieldTriangles(mesh_).on(mesh_));

@@ -15,7 +15,8 @@ class FieldFrames {
 public:
     /// @param mesh  has to outlive the frames; they follow it
     /// @param restart_time  as in FieldSeries
-    FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time);
+    FieldFrames(const std::filesystem::path& folder, const Mesh& mesh, std::optional<double> restart_time,
+                VtuData data = VtuData::raw);
 
     void write(const SolidSystem& system, const State& state, std::size_t step);
 

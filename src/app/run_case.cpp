@@ -230,8 +230,9 @@ void Run::open_results() {
         reactions_file_.emplace(out_ / "reactions.csv", case_.reactions.columns(), restart_time);
     if (!case_.integrator->step_columns().empty())
         steps_file_.emplace(out_ / "load_steps.csv", step_columns(*case_.integrator), restart_time);
-    frames_.emplace(out_, *case_.mesh, restart_time);
-    if (case_.cracking != nullptr) cracks_.emplace(out_, *case_.cracking, restart_time);
+    const VtuData data = case_.options.output.base64 ? VtuData::base64 : VtuData::raw;
+    frames_.emplace(out_, *case_.mesh, restart_time, data);
+    if (case_.cracking != nullptr) cracks_.emplace(out_, *case_.cracking, restart_time, data);
     if (case_.options.output.states > 0) states_.emplace(out_ / "states.h5", *case_.mesh, restart_time);
 }
 

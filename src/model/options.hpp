@@ -281,6 +281,7 @@ struct OutputOptions {
     std::vector<double> field_times;  ///< further times, s, at which the fields are written
     double history = 0;               ///< interval of rows, s; 0: a thousandth of the run, where steps end
     bool rows_at_steps = false;       ///< at the first step that reaches a multiple of it, not at the multiple
+    bool base64 = false;              ///< numbers of .vtu files as text
     double states = 0;                ///< interval of whole states in full precision, s; 0: none
     std::vector<ProbeOptions> probes;
 };

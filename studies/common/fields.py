@@ -60,7 +60,7 @@ def read_frame(path: Path) -> Frame:
 def read_vtu(path: Path) -> Grid:
     """Reads a .vtu: VTK's XML format with its data appended raw, compressed by zlib.
 
-    (meshio 5.0 reads these files too, in 13 times the time.)
+    (meshio reads them in 13 times the time, and not at all under the Python of Debian 13.)
     """
     content = Path(path).read_bytes()
     mark = re.search(rb"<AppendedData[^>]*encoding=\"raw\"[^>]*>\s*_", content)

@@ -1,4 +1,5 @@
 """ParaView reads both series of a run and computes von Mises' stress of it, where it is installed."""
+import itertools
 import os
 import shutil
 import unittest
@@ -20,14 +21,15 @@ def von_mises(stress):
 @unittest.skipUnless(PVPYTHON, "ParaView is not installed (no pvpython in the PATH, no $GNEISS_PVPYTHON)")
 class TestParaView(AgainstOurReader):
     def test_Series_AreReadToTheBitAndMisesStressIsTheFormulas(self):
-        for name in ("fields", "cracks"):
-            frames = self.series(name)
-            (self.top / name).mkdir()
-            run_interpreter(PVPYTHON, "dump_by_paraview.py", self.folder / f"{name}.pvd", self.top / name)
-            self.assertEqual(len(list((self.top / name).iterdir())), len(frames))
+        for data, name in itertools.product(("raw", "base64"), ("fields", "cracks")):
+            frames = self.series(name, data)
+            dumps = self.top / f"{data}_{name}"
+            dumps.mkdir()
+            run_interpreter(PVPYTHON, "dump_by_paraview.py", self.top / data / f"{name}.pvd", dumps)
+            self.assertEqual(len(list(dumps.iterdir())), len(frames))
             for number, (t, path) in enumerate(frames):
-                with self.subTest(path=path.name):
-                    found = np.load(self.top / name / f"{number}.npz")
+                with self.subTest(path=path):
+                    found = np.load(dumps / f"{number}.npz")
                     self.assertEqual(float(found["timestep"]), t)
                     self.compare_dump(path, t, found)
                     if name == "fields":

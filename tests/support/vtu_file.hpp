@@ -87,6 +87,36 @@ inline std::string decompressed(const std::string& file, std::size_t& at) {
     return bytes;
 }
 
+inline std::string from_base64(const std::string& text) {
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int n_bits = 0;
+    for (const char letter : text.substr(0, text.find('='))) {
+        const std::size_t value = letters.find(letter);
+        if (value == letters.npos) throw std::runtime_error("no letter of base64");
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
+        if ((n_bits += 6) >= 8) bytes += static_cast<char>(bits >> (n_bits -= 8) & 255);
+    }
+    if (text.size() % 4 != 0 || text.size() != (bytes.size() + 2) / 3 * 4)
+        throw std::runtime_error("base64 that is not filled up");
+    return bytes;
+}
+
+/// The bytes of an array that stands as text in its element: header and blocks are texts of their own.
+inline std::string decoded(const std::string& text) {
+    std::uint64_t n_blocks = 0;
+    std::memcpy(&n_blocks, from_base64(text.substr(0, 12)).data(), sizeof n_blocks);
+    const std::size_t header = (8 * (3 + n_blocks) + 2) / 3 * 4;
+    return from_base64(text.substr(0, header)) + from_base64(text.substr(header));
+}
+
+/// What stands between two texts; empty if either is missing.
+inline std::string between(const std::string& text, const std::string& left, const std::string& right) {
+    const std::size_t begin = text.find(left), first = begin + left.size(), last = text.find(right, first);
+    return begin == text.npos || last == text.npos ? "" : text.substr(first, last - first);
+}
+
 template <class T>
 std::vector<double> numbers_in(const std::string& bytes) {
     std::vector<T> values(bytes.size() / sizeof(T));
@@ -99,8 +129,9 @@ inline VtuFile read_vtu(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     const std::string file{std::istreambuf_iterator<char>(stream), {}};
     const std::string opening = "<AppendedData encoding=\"raw\">\n_", closing = "\n</AppendedData>\n</VTKFile>\n";
-    const std::size_t begin = file.find(opening) + opening.size();
-    const std::string head = file.substr(0, file.find(opening));
+    const bool is_raw = file.find(opening) != file.npos;
+    const std::size_t begin = is_raw ? file.find(opening) + opening.size() : file.size();
+    const std::string head = file.substr(0, is_raw ? file.find(opening) : file.npos);
     for (const char* stated : {"byte_order=\"LittleEndian\"", "header_type=\"UInt64\"",
                                "compressor=\"vtkZLibDataCompressor\"", "type=\"UnstructuredGrid\""})
         if (head.find(stated) == head.npos) throw std::runtime_error(std::string("the file does not state ") + stated);
@@ -111,26 +142,36 @@ inline VtuFile read_vtu(const std::filesystem::path& path) {
         const std::size_t first = head.find("<" + name + ">"), last = head.find("</" + name + ">");
         if (first == head.npos || last == head.npos) throw std::runtime_error("the file has no " + name);
         const std::string text = head.substr(first, last - first);
-        const std::regex element(
-            "<DataArray ([^>]*?)/?>(<InformationKey name=\"UNITS_LABEL\" "
-            "location=\"vtkDataArray\">([^<]*)</InformationKey></DataArray>)?");
-        for (std::sregex_iterator it(text.begin(), text.end(), element), none; it != none; ++it) {
+        for (std::size_t at = text.find("<DataArray "); at != text.npos; at = text.find("<DataArray ", at + 1)) {
+            const std::string attributes = between(text.substr(at), "<DataArray ", ">");
+            const std::string content = between(text.substr(at), attributes + ">", "</DataArray>");
             VtuArray array;
-            array.unit = (*it)[3];
+            array.unit = between(content, "UNITS_LABEL\" location=\"vtkDataArray\">", "</InformationKey>");
+            std::string format;
             std::size_t offset = 0;
-            const std::string attributes = (*it)[1];
             const std::regex attribute("([A-Za-z]+[0-9]*)=\"([^\"]*)\"");
-            for (std::sregex_iterator a(attributes.begin(), attributes.end(), attribute); a != none; ++a) {
+            for (std::sregex_iterator a(attributes.begin(), attributes.end(), attribute), none; a != none; ++a) {
                 const std::string key = (*a)[1], value = (*a)[2];
                 if (key == "Name") array.name = value;
                 if (key == "type") array.type = value;
                 if (key == "NumberOfComponents") array.n_components = std::stoul(value);
                 if (key.starts_with("ComponentName")) array.component_names.push_back(value);
+                if (key == "format") format = value;
                 if (key == "offset") offset = std::stoul(value);
             }
-            std::size_t end = begin + offset;
-            const std::string bytes = decompressed(file, end);
-            extents.emplace_back(offset, end - begin);
+            std::string bytes;
+            if (is_raw && format == "appended") {
+                std::size_t end = begin + offset;
+                bytes = decompressed(file, end);
+                extents.emplace_back(offset, end - begin);
+            } else if (!is_raw && format == "binary") {
+                const std::string data = decoded(content.substr(0, content.find('<')));
+                std::size_t end = 0;
+                bytes = decompressed(data, end);
+                if (end != data.size()) throw std::runtime_error(array.name + ": something follows its blocks");
+            } else {
+                throw std::runtime_error(array.name + ": unexpected format " + format);
+            }
             if (array.type == "Float64") array.values = numbers_in<double>(bytes);
             if (array.type == "Int64") array.values = numbers_in<std::int64_t>(bytes);
             if (array.type == "Int32") array.values = numbers_in<std::int32_t>(bytes);
@@ -144,6 +185,10 @@ inline VtuFile read_vtu(const std::filesystem::path& path) {
     section("Points", grid.of_points);
     section("Cells", grid.of_cells);
 
+    if (!is_raw) {
+        if (!file.ends_with("</UnstructuredGrid>\n</VTKFile>\n")) throw std::runtime_error("the file is not closed");
+        return grid;
+    }
     // meshio walks through the data from array to array: they follow each other without a gap
     std::sort(extents.begin(), extents.end());
     std::size_t at = 0;

@@ -49,6 +49,11 @@ inline constexpr std::array<Choice<bool>, 2> row_places{{
     {"steps", true, "at the end of the first step that reaches each multiple: no step is changed"},
 }};
 
+inline constexpr std::array<Choice<bool>, 2> vtu_data{{
+    {"raw", false, "compressed bytes behind the elements: the smallest files; ParaView and VTK read them"},
+    {"base64", true, "the same as text in the element of each array, a third larger: meshio too, under any Python"},
+}};
+
 inline constexpr std::array<Choice<bool>, 2> elements{{
     {"compt", true, "composite triangle of six nodes, free of volumetric locking"},
     {"cst", false, "constant strain triangles on the same nodes, four for each composite"},

@@ -309,6 +309,7 @@ const Section<OutputOptions>& output_section() {
                  .meaning = "simulated time between fields for ParaView; 0: the first and the last state only"}),
          numbers("field_times", &O::field_times,
                  {.unit = "s", .range = at_least(0), .meaning = "further times at which the fields are written"}),
+         choice("vtu_data", &O::base64, vtu_data, {.meaning = "how the numbers stand in .vtu files"}),
          number("history", &O::history,
                 {.unit = "s",
                  .range = at_least(0),

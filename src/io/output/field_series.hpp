@@ -22,7 +22,7 @@ public:
     /// @throws IoError if an old frame cannot be removed
     /// @throws std::invalid_argument as VtuWriter
     FieldSeries(std::filesystem::path folder, const FieldMesh& mesh, std::optional<double> restart_time = {},
-                std::string name = "fields");
+                std::string name = "fields", VtuData data = VtuData::raw);
 
     /// Writes one frame and the list. A frame at the time of the last one takes its place.
     /// @param t  s, not before the last frame
@@ -30,7 +30,7 @@ public:
     void write(double t, std::int64_t step, const Fields& fields);
 
     /// From here on the frames have this mesh: after nodes were split, say.
-    void set_mesh(const FieldMesh& mesh) { writer_ = VtuWriter(mesh); }
+    void set_mesh(const FieldMesh& mesh) { writer_ = VtuWriter(mesh, data_); }
 
     std::size_t n_frames() const { return frames_.size(); }
 
@@ -45,6 +45,7 @@ private:
 
     std::filesystem::path folder_;
     std::string name_;
+    VtuData data_;
     VtuWriter writer_;
     std::vector<PvdFrame> frames_;
 };

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "io/output/atomic_file.hpp"
+#include "io/output/base64.hpp"
 #include "io/output/zlib_blocks.hpp"
 
 namespace gneiss {
@@ -57,14 +58,13 @@ std::string attributes_of(const FieldArray& field) {
     return text;
 }
 
-/// One line of the head of the file.
-std::string data_array(const std::string& attributes, const std::string& unit, std::size_t offset) {
-    const std::string start = fmt::format("<DataArray {} format=\"appended\" offset=\"{}\"", attributes, offset);
-    if (unit.empty()) return start + "/>\n";
-    return start + fmt::format(
-                       "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>"
-                       "</DataArray>\n",
-                       unit);
+/// One <DataArray>. Data in it stand in front of its unit: VTK and meshio read what follows the tag.
+std::string data_array(const std::string& attributes, const std::string& unit, const std::string& format,
+                       std::string_view data = {}) {
+    std::string text = fmt::format("<DataArray {} format={}>{}", attributes, format, data);
+    if (!unit.empty())
+        text += fmt::format("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>", unit);
+    return text + "</DataArray>\n";
 }
 
 std::string_view text_of(std::span<const std::uint64_t> numbers) {
@@ -72,14 +72,20 @@ std::string_view text_of(std::span<const std::uint64_t> numbers) {
 }
 
 /// Arrays as they stand in the file, in memory.
-std::vector<std::string> compressed(std::span<const RawArray> arrays) {
+std::vector<std::string> compressed(std::span<const RawArray> arrays, VtuData data) {
     std::vector<std::string> blocks(arrays.size());
     std::vector<std::vector<std::uint64_t>> sizes(arrays.size());
     compress_blocks(arrays, [&](std::size_t array, std::string_view block) {
         blocks[array] += block;
         sizes[array].push_back(block.size());
     });
-    for (std::size_t i = 0; i < arrays.size(); ++i) blocks[i].insert(0, text_of(block_header(arrays[i], sizes[i])));
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        const std::vector<std::uint64_t> header = block_header(arrays[i], sizes[i]);
+        if (data == VtuData::base64)  // header and blocks are texts of their own, each filled up
+            blocks[i] = base64(text_of(header)) + base64(blocks[i]);
+        else
+            blocks[i].insert(0, text_of(header));
+    }
     return blocks;
 }
 
@@ -112,8 +118,10 @@ std::vector<std::size_t> write_compressed(int file, std::size_t begin, std::span
 
 }  // namespace
 
-VtuWriter::VtuWriter(const FieldMesh& mesh)
-    : n_points_(mesh.points.size()), n_cells_(mesh.triangles.empty() ? mesh.lines.size() : mesh.triangles.size()) {
+VtuWriter::VtuWriter(const FieldMesh& mesh, VtuData data)
+    : data_(data),
+      n_points_(mesh.points.size()),
+      n_cells_(mesh.triangles.empty() ? mesh.lines.size() : mesh.triangles.size()) {
     const bool of_lines = mesh.triangles.empty();
     check_points(mesh.lines, n_points_, "line");
     check_points(mesh.triangles, n_points_, "triangle");
@@ -139,7 +147,7 @@ VtuWriter::VtuWriter(const FieldMesh& mesh)
     const std::vector<std::uint8_t> types(n_cells_, of_lines ? vtk_line : vtk_triangle);
     add("type=\"UInt8\" Name=\"types\"", "", {std::as_bytes(std::span(types))});
 
-    std::vector<std::string> bytes = compressed(arrays);
+    std::vector<std::string> bytes = compressed(arrays, data);
     for (std::size_t i = 0; i < mesh_.size(); ++i) mesh_[i].bytes = std::move(bytes[i]);
 }
 
@@ -150,26 +158,43 @@ void VtuWriter::write(const std::filesystem::path& path, double t, std::int64_t 
     for (const auto* kind : {&fields.points, &fields.cells})
         for (const FieldArray& field : *kind) arrays.push_back({std::as_bytes(field.values), is_plane_vector(field)});
 
+    if (data_ == VtuData::raw)
+        write_raw(path, arrays, fields);
+    else
+        write_base64(path, arrays, fields);
+}
+
+/// Everything in front of the appended data, or of the end of the file. `element` makes the <DataArray> of each array
+/// in turn, those of the mesh last.
+template <class Element>
+std::string VtuWriter::elements(const Fields& fields, const Element& element) const {
+    std::string text =
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
+    std::size_t i = 0;
+    text += element(i++, "type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\"", "s");
+    text += element(i++, "type=\"Int64\" Name=\"step\" NumberOfTuples=\"1\"", "");
+    text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", n_points_,
+                        n_cells_);
+    for (const FieldArray& field : fields.points) text += element(i++, attributes_of(field), field.unit);
+    text += "</PointData>\n<CellData>\n";
+    for (const FieldArray& field : fields.cells) text += element(i++, attributes_of(field), field.unit);
+    for (std::size_t k = 0; k < mesh_.size(); ++k) {
+        if (k == integer_names_.size()) text += "</CellData>\n<Points>\n";
+        if (k == integer_names_.size() + 1) text += "</Points>\n<Cells>\n";
+        text += element(i++, mesh_[k].attributes, mesh_[k].unit);
+    }
+    return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+}
+
+void VtuWriter::write_raw(const std::filesystem::path& path, std::span<const RawArray> arrays,
+                          const Fields& fields) const {
     // Offsets are known once everything is compressed, and the head stands in front of it.
     const auto head = [&](std::span<const std::size_t> places) {
-        std::string text =
-            "<?xml version=\"1.0\"?>\n"
-            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-            "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
-        auto place = places.begin();
-        text += data_array("type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\"", "s", *place++);
-        text += data_array("type=\"Int64\" Name=\"step\" NumberOfTuples=\"1\"", "", *place++);
-        text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
-                            n_points_, n_cells_);
-        for (const FieldArray& field : fields.points) text += data_array(attributes_of(field), field.unit, *place++);
-        text += "</PointData>\n<CellData>\n";
-        for (const FieldArray& field : fields.cells) text += data_array(attributes_of(field), field.unit, *place++);
-        for (std::size_t i = 0; i < mesh_.size(); ++i) {
-            if (i == integer_names_.size()) text += "</CellData>\n<Points>\n";
-            if (i == integer_names_.size() + 1) text += "</Points>\n<Cells>\n";
-            text += data_array(mesh_[i].attributes, mesh_[i].unit, *place++);
-        }
-        return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+        return elements(fields, [&](std::size_t i, const std::string& attributes, const std::string& unit) {
+            return data_array(attributes, unit, fmt::format("\"appended\" offset=\"{}\"", places[i]));
+        });
     };
     const std::string_view opening = "<AppendedData encoding=\"raw\">\n_", closing = "\n</AppendedData>\n</VTKFile>\n";
     const std::size_t n_arrays = arrays.size() + mesh_.size();
@@ -187,6 +212,18 @@ void VtuWriter::write(const std::filesystem::path& path, double t, std::int64_t 
         const std::string text = head(places);
         write_all_at(file, text + std::string(longest_head - text.size(), ' ') + std::string(opening), 0, path);
     });
+}
+
+void VtuWriter::write_base64(const std::filesystem::path& path, std::span<const RawArray> arrays,
+                             const Fields& fields) const {
+    const std::vector<std::string> data = compressed(arrays, VtuData::base64);
+    const std::string text = elements(fields,
+                                      [&](std::size_t i, const std::string& attributes, const std::string& unit) {
+                                          return data_array(attributes, unit, "\"binary\"",
+                                                            i < data.size() ? data[i] : mesh_[i - data.size()].bytes);
+                                      }) +
+                             "</VTKFile>\n";
+    write_atomically(path, [&](int file) { write_all_at(file, text, 0, path); });
 }
 
 }  // namespace gneiss

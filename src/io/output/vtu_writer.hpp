@@ -10,6 +10,8 @@
 
 namespace gneiss {
 
+struct RawArray;
+
 /// A named array of numbers at points or in cells, triangles or lines. Nothing is copied: `values` must live until the
 /// write is over.
 struct FieldArray {
@@ -42,13 +44,19 @@ struct Fields {
     std::vector<FieldArray> cells;   ///< arrays with n_cells rows
 };
 
-/// Writes any number of .vtu files on one mesh: VTK's XML format, its data appended raw, compressed by zlib in blocks,
-/// little endian. Units stand where VTK has them, as UNITS_LABEL of an array. The bytes depend on what is written
-/// alone. The mesh is compressed once.
+/// How the numbers of a .vtu stand in it.
+enum class VtuData {
+    raw,    ///< bytes behind all elements (format="appended", encoding="raw")
+    base64  ///< text in the element of each array (format="binary"): files a third larger that more programs read
+};
+
+/// Writes any number of .vtu files on one mesh: VTK's XML format, its data compressed by zlib in blocks, little endian.
+/// Units stand where VTK has them, as UNITS_LABEL of an array. The bytes depend on what is written alone. The mesh is
+/// compressed once.
 class VtuWriter {
 public:
     /// @throws std::invalid_argument if a cell names a point that is not there, or an array has the wrong length
-    explicit VtuWriter(const FieldMesh& mesh);
+    explicit VtuWriter(const FieldMesh& mesh, VtuData data = VtuData::raw);
 
     /// Writes `path` whole or not at all. Field data: TimeValue = t (s), which readers take as the time, and step.
     /// @throws IoError if the file cannot be written
@@ -61,6 +69,12 @@ private:
         std::string attributes, unit, bytes;
     };
 
+    void write_raw(const std::filesystem::path& path, std::span<const RawArray> arrays, const Fields& fields) const;
+    void write_base64(const std::filesystem::path& path, std::span<const RawArray> arrays, const Fields& fields) const;
+    template <class Element>
+    std::string elements(const Fields& fields, const Element& element) const;
+
+    VtuData data_;
     std::size_t n_points_, n_cells_;
     std::vector<std::string> integer_names_;
     std::vector<MeshArray> mesh_;  ///< integers, points, connectivity, offsets, types

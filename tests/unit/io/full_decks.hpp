@@ -132,6 +132,7 @@ fields = 2e-4
 field_times = [1e-3, 0.5e-3]
 history = 1e-5
 rows = "steps"
+vtu_data = "base64"
 states = 1e-3
 probes = [{ at = [5.0, 0.0], name = "p0", about = [0.0, 0.0] }]
 [compare]

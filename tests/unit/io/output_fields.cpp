@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "io/output/atomic_file.hpp"
+#include "io/output/base64.hpp"
 #include "io/output/field_series.hpp"
 #include "io/output/zlib_blocks.hpp"
 #include "support/vtu_file.hpp"
@@ -19,6 +20,9 @@ using test::message_of;
 using test::read_vtu;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::NanSensitiveDoubleEq;
+using ::testing::Not;
+using ::testing::Pointwise;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -81,6 +85,31 @@ TEST_F(FieldOutput, Vtu_Arrays_StateTheirUnits) {
     EXPECT_EQ(grid.of_cell("region").unit, "");
 }
 
+TEST(Base64, Text_IsThatOfTheStandard) {  // RFC 4648, section 10; bits of every letter
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64({"\x00\xff\xfe\x80", 4}), "AP/+gA==");
+}
+
+TEST_F(FieldOutput, Vtu_Base64_HoldsTheSameArraysAndUnits) {
+    VtuWriter(mesh).write(folder / "raw.vtu", 0.1, 12345, fields);
+    VtuWriter(mesh, VtuData::base64).write(folder / "text.vtu", 0.1, 12345, fields);
+    EXPECT_THAT(contents(folder / "text.vtu"), Not(HasSubstr("AppendedData")));
+    const test::VtuFile raw = read_vtu(folder / "raw.vtu"), text = read_vtu(folder / "text.vtu");
+    for (const auto part : {&test::VtuFile::field_data, &test::VtuFile::point_data, &test::VtuFile::cell_data,
+                            &test::VtuFile::of_points, &test::VtuFile::of_cells}) {
+        ASSERT_EQ(raw.names(raw.*part), text.names(text.*part));
+        for (std::size_t i = 0; i < (raw.*part).size(); ++i) {
+            const test::VtuArray &a = (raw.*part)[i], &b = (text.*part)[i];
+            EXPECT_EQ(a.unit, b.unit) << a.name;
+            EXPECT_EQ(a.component_names, b.component_names) << a.name;
+            EXPECT_THAT(b.values, Pointwise(NanSensitiveDoubleEq(), a.values)) << a.name;
+        }
+    }
+}
+
 TEST_F(FieldOutput, Vtu_OfLines_HasLines) {
     const std::vector<std::array<std::int32_t, 2>> lines{{0, 1}, {1, 3}, {3, 2}};
     const std::vector<std::int32_t> side{5, 6, 8};
@@ -102,8 +131,10 @@ TEST_F(FieldOutput, Vtu_OfLines_HasLines) {
 }
 
 TEST_F(FieldOutput, Vtu_WithoutAnyCell_CanBeRead) {  // a solid that has not cracked yet
-    VtuWriter(FieldMesh{}).write(folder / "a.vtu", 0, 0, {});
-    EXPECT_EQ(read_vtu(folder / "a.vtu").n_cells(), 0u);
+    for (const VtuData data : {VtuData::raw, VtuData::base64}) {
+        VtuWriter(FieldMesh{}, data).write(folder / "a.vtu", 0, 0, {});
+        EXPECT_EQ(read_vtu(folder / "a.vtu").n_cells(), 0u);
+    }
 }
 
 TEST_F(FieldOutput, Vtu_PlaneVector_IsPaddedToThree) {
@@ -132,27 +163,30 @@ TEST_F(FieldOutput, Vtu_OfManyBlocks_IsReadBackAndHasTheSameBytesForAnyNumberOfT
         of_strip[e] = {first, first + 1, first + 2};
         values.push_back(std::cos(static_cast<double>(e)));
     }
-    std::string bytes;
-    for (const int n_threads : {1, 2, 5}) {
-        omp_set_num_threads(n_threads);
-        VtuWriter({strip, of_strip}).write(folder / "a.vtu", 0.5, 1, {{{"u", vectors, "m", 2}}, {{"values", values}}});
-        const std::string written = contents(folder / "a.vtu");
-        if (bytes.empty()) bytes = written;
-        EXPECT_TRUE(written == bytes) << n_threads << " threads";
-    }
-    omp_set_num_threads(omp_get_num_procs());
+    for (const VtuData data : {VtuData::raw, VtuData::base64}) {
+        std::string bytes;
+        for (const int n_threads : {1, 2, 5}) {
+            omp_set_num_threads(n_threads);
+            VtuWriter({strip, of_strip}, data)
+                .write(folder / "a.vtu", 0.5, 1, {{{"u", vectors, "m", 2}}, {{"values", values}}});
+            const std::string written = contents(folder / "a.vtu");
+            if (bytes.empty()) bytes = written;
+            EXPECT_TRUE(written == bytes) << n_threads << " threads";
+        }
+        omp_set_num_threads(omp_get_num_procs());
 
-    const test::VtuFile grid = read_vtu(folder / "a.vtu");
-    ASSERT_EQ(grid.n_cells(), n);
-    EXPECT_EQ(grid.of_cell("values").values, values);
-    EXPECT_THAT(grid.cell_points(n - 1), ElementsAre(n - 1, n, n + 1));
-    const test::VtuArray& u = grid.of_point("u");
-    ASSERT_EQ(u.n_rows(), strip.size());
-    for (std::size_t i = 0; i < strip.size(); ++i) {
-        ASSERT_EQ(grid.position(i, 0), strip[i][0]) << i;
-        ASSERT_EQ(u(i, 0), vectors[2 * i]) << i;
-        ASSERT_EQ(u(i, 1), vectors[2 * i + 1]) << i;
-        ASSERT_EQ(u(i, 2), 0) << i;
+        const test::VtuFile grid = read_vtu(folder / "a.vtu");
+        ASSERT_EQ(grid.n_cells(), n);
+        EXPECT_EQ(grid.of_cell("values").values, values);
+        EXPECT_THAT(grid.cell_points(n - 1), ElementsAre(n - 1, n, n + 1));
+        const test::VtuArray& u = grid.of_point("u");
+        ASSERT_EQ(u.n_rows(), strip.size());
+        for (std::size_t i = 0; i < strip.size(); ++i) {
+            ASSERT_EQ(grid.position(i, 0), strip[i][0]) << i;
+            ASSERT_EQ(u(i, 0), vectors[2 * i]) << i;
+            ASSERT_EQ(u(i, 1), vectors[2 * i + 1]) << i;
+            ASSERT_EQ(u(i, 2), 0) << i;
+        }
     }
 }
 
