@@ -22,10 +22,11 @@ run=(
     libgmsh-dev                                    # meshes
     zlib1g-dev libhdf5-dev                         # .vtu, checkpoints
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-    python3 python3-numpy python3-scipy python3-matplotlib python3-meshio snakemake  # studies
+    python3 python3-numpy python3-scipy python3-matplotlib snakemake  # studies
 )
 crosscheck=(libdeal.ii-dev)                        # tests/crosscheck, the largest of all; gneiss itself does without
 tests=(libgtest-dev libgmock-dev libbenchmark-dev
+    python3-meshio                                 # reads .vtu in tests/readers
     ccache)                                        # presets for development
 
 say() { printf 'packages: %s\n' "$*"; }
