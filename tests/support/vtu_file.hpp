@@ -146,7 +146,8 @@ inline VtuFile read_vtu(const std::filesystem::path& path) {
             const std::string attributes = between(text.substr(at), "<DataArray ", ">");
             const std::string content = between(text.substr(at), attributes + ">", "</DataArray>");
             VtuArray array;
-            array.unit = between(content, "UNITS_LABEL\" location=\"vtkDataArray\">", "</InformationKey>");
+            array.unit = between(content, "<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">",
+                                 "</InformationKey>");
             std::string format;
             std::size_t offset = 0;
             const std::regex attribute("([A-Za-z]+[0-9]*)=\"([^\"]*)\"");

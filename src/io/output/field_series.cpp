@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 FieldSeries::FieldSeries(fs::path folder, const FieldMesh& mesh, std::optional<double> restart_time, std::string name,
                          VtuData data)
-    : folder_(std::move(folder)), name_(std::move(name)), data_(data), writer_(mesh, data) {
+    : folder_(std::move(folder)), name_(std::move(name)), writer_(mesh, data) {
     if (restart_time && fs::exists(index_path())) continue_from(*restart_time);
     // The list goes first: at no moment may it name a frame that is gone.
     if (fs::exists(index_path())) write_pvd(index_path(), frames_);

@@ -30,7 +30,7 @@ public:
     void write(double t, std::int64_t step, const Fields& fields);
 
     /// From here on the frames have this mesh: after nodes were split, say.
-    void set_mesh(const FieldMesh& mesh) { writer_ = VtuWriter(mesh, data_); }
+    void set_mesh(const FieldMesh& mesh) { writer_ = VtuWriter(mesh, writer_.data()); }
 
     std::size_t n_frames() const { return frames_.size(); }
 
@@ -45,7 +45,6 @@ private:
 
     std::filesystem::path folder_;
     std::string name_;
-    VtuData data_;
     VtuWriter writer_;
     std::vector<PvdFrame> frames_;
 };

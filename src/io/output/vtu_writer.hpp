@@ -63,6 +63,8 @@ public:
     /// @throws std::invalid_argument if an array has the wrong length, no name or the name of another
     void write(const std::filesystem::path& path, double t, std::int64_t step, const Fields& fields) const;
 
+    VtuData data() const { return data_; }
+
 private:
     /// An array of the mesh as it stands in every file.
     struct MeshArray {

@@ -253,6 +253,16 @@ TEST_F(FieldOutput, Series_Frames_AreNumberedAndListed) {
     EXPECT_EQ(n_files(), 3u);
 }
 
+TEST_F(FieldOutput, Series_OnANewMesh_KeepsItsData) {
+    for (const VtuData data : {VtuData::raw, VtuData::base64}) {
+        FieldSeries series(folder, mesh, {}, "fields", data);
+        series.set_mesh(mesh);
+        series.write(0, 0, fields);
+        const bool is_raw = contents(folder / "fields_000000.vtu").find("AppendedData") != std::string::npos;
+        EXPECT_EQ(is_raw, data == VtuData::raw);
+    }
+}
+
 TEST_F(FieldOutput, Series_SameTimeAgain_ReplacesTheFrame) {
     FieldSeries series(folder, mesh);
     series.write(0.5, 10, fields);
