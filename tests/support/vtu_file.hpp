@@ -120,7 +120,7 @@ inline std::string between(const std::string& text, const std::string& left, con
 template <class T>
 std::vector<double> numbers_in(const std::string& bytes) {
     std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());  // data() of none may be null
     return {values.begin(), values.end()};
 }
 
