@@ -1,3 +1,12 @@
+# Where ccache is installed and not switched off: in a new place it finds nothing, and looking takes a second of each file.
+if(GNEISS_CCACHE AND NOT DEFINED ENV{CCACHE_DISABLE})
+  find_program(GNEISS_CCACHE_PROGRAM ccache)
+  if(GNEISS_CCACHE_PROGRAM)
+    set(CMAKE_C_COMPILER_LAUNCHER "${GNEISS_CCACHE_PROGRAM}")
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${GNEISS_CCACHE_PROGRAM}")
+  endif()
+endif()
+
 # One interface target carries every flag that our own code is compiled with. The architecture flag belongs here
 # and nowhere else: the alignment of Eigen's matrices and the width of packs, and so the ABI, follow from it. That is why
 # whoever links an installed gneiss gets it too; all but that is for this build.

@@ -3,7 +3,8 @@
 # are present, and removes none. studies/run.sh and tests/run.sh call it first.
 #
 # usage: cmake/install_debian_packages.sh [--list] [SET]
-#   SET      run         what building the program, running it, and the studies need
+#   SET      build       what the program is built with
+#            run         that, and what the studies draw and compute with
 #            crosscheck  that, and deal.II, by which the study `locking` and some tests judge
 #            tests       that, and what the tests and benchmarks need (default)
 #   --list   print the package names, one per line, and stop
@@ -13,8 +14,8 @@ set -euo pipefail
 
 # What a find_package, an include or a script of this repository asks for, and nothing else: a bare machine waits for
 # every further one.
-run=(
-    ca-certificates git
+build=(
+    ca-certificates git python3
     g++ cmake ninja-build                          # compiler with OpenMP, build
     libeigen3-dev libxsimd-dev                     # linear algebra, packs
     libsuitesparse-dev libsundials-dev             # sparse linear systems; nonlinear ones and ODEs
@@ -22,8 +23,8 @@ run=(
     libgmsh-dev                                    # meshes
     zlib1g-dev libhdf5-dev                         # .vtu, checkpoints
     libtomlplusplus-dev libcli11-dev libmuparser-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-    python3 python3-numpy python3-scipy python3-matplotlib snakemake  # studies
 )
+run=(python3-numpy python3-scipy python3-matplotlib snakemake)  # studies
 crosscheck=(libdeal.ii-dev)                        # tests/crosscheck, the largest of all; gneiss itself does without
 tests=(libgtest-dev libgmock-dev libbenchmark-dev
     python3-meshio                                 # reads .vtu in tests/readers
@@ -39,13 +40,14 @@ if [[ ${1-} == --list ]]; then
 fi
 set=${1-tests}
 case $set in
-    run) packages=("${run[@]}") ;;
-    crosscheck) packages=("${run[@]}" "${crosscheck[@]}") ;;
-    tests) packages=("${run[@]}" "${crosscheck[@]}" "${tests[@]}") ;;
+    build) packages=("${build[@]}") ;;
+    run) packages=("${build[@]}" "${run[@]}") ;;
+    crosscheck) packages=("${build[@]}" "${run[@]}" "${crosscheck[@]}") ;;
+    tests) packages=("${build[@]}" "${run[@]}" "${crosscheck[@]}" "${tests[@]}") ;;
     *) packages=() ;;
 esac
 if [[ $# -gt 1 || ${#packages[@]} -eq 0 ]]; then
-    echo "usage: ${0##*/} [--list] [run|crosscheck|tests]" >&2
+    echo "usage: ${0##*/} [--list] [build|run|crosscheck|tests]" >&2
     exit 2
 fi
 if ((list)); then
@@ -54,7 +56,7 @@ if ((list)); then
 fi
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-    fail "this system has no apt. gneiss is developed on Debian 12; elsewhere install what these packages
+    fail "this system has no apt. gneiss is developed on Debian 12 and 13; elsewhere install what these packages
 provide, then configure with CMake yourself (CONTRIBUTING.md): ${packages[*]}"
 fi
 
@@ -128,7 +130,7 @@ for package in "${missing[@]}"; do
     apt-cache show --no-all-versions "$package" >/dev/null 2>&1 || unknown+=("$package")
 done
 [[ ${#unknown[@]} -eq 0 ]] || apt_failed "apt's lists do not have ${unknown[*]}. Is the archive within reach? gneiss is
-developed on Debian 12"
+developed on Debian 12 and 13"
 
 # What apt would do, told without doing it: a package of the user's that would have to go is theirs to give up.
 plan=$(LC_ALL=C apt-get -s -o APT::Get::Show-User-Simulation-Note=0 --no-install-recommends install "${missing[@]}" 2>&1) \

@@ -17,8 +17,10 @@ struct Stiffening {
 
     bool active() const { return k > 0 && n > 0; }
 
+    /// Out of line, as mean_factor(): a call costs little beside its exponentials, and the kernels of constant moduli
+    /// stay short, to compile and to run.
     template <class T>
-    T factor(const T& p) const {
+    [[gnu::noinline]] T factor(const T& p) const {
         const double kappa = k / p_ref;
         return choose(plain(p) > 0.0, T(exponential(n * ln1p(T(kappa * positive(p))))), T(1.0));
     }
@@ -28,7 +30,7 @@ struct Stiffening {
     /// @param p0  pressure at the start, Pa
     /// @param pi  step of the pressure at g = 1, Pa
     template <class T>
-    T mean_factor(const T& p0, const T& pi) const;
+    [[gnu::noinline]] T mean_factor(const T& p0, const T& pi) const;
 
 private:
     template <class T>

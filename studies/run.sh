@@ -41,17 +41,22 @@ step() { began=$SECONDS; printf '\n[%s] %s\n' "$1" "$2"; }
 took() { printf '      took %d min %02d s\n' $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)); }
 fail() { printf '\nstudies/run.sh: %s\n' "$1" >&2; exit 1; }
 
-packages=run
-! grep -q crosscheck "studies/$name/Snakefile" || packages=crosscheck
-step 1/4 "Debian packages: on a bare machine one to three minutes, otherwise at once"
-cmake/install_debian_packages.sh "$packages"
+# On a bare machine the compiler need not wait for what draws the figures: those packages come beside it.
+set=run first=build
+! grep -q crosscheck "studies/$name/Snakefile" || set=crosscheck first=crosscheck
+step 1/4 "Debian packages: on a bare machine two to four minutes, otherwise at once"
+cmake/install_debian_packages.sh "$first"
 took
 
 step 2/4 "building the program with preset $preset in build/$preset: four minutes the first time on two cores"
+beside=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX")
+cmake/install_debian_packages.sh "$set" </dev/null >"$beside" 2>&1 &
+packages_job=$!
+trap 'wait; rm -f "$beside"' EXIT  # apt is not left behind half-way
 cmake --preset "$preset" >/dev/null \
     || fail "configuring failed; if build/$preset is left over from another place, delete it"
 targets=(gneiss_app)
-if [[ $packages == crosscheck ]]; then
+if [[ $set == crosscheck ]]; then
     if [[ $(cmake --build --preset "$preset" --target help) == *gneiss_crosscheck_app* ]]; then
         targets+=(gneiss_crosscheck_app)
     else
@@ -61,6 +66,12 @@ fi
 NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target "${targets[@]}" </dev/null \
     || fail "the build failed; the first error is above"
 [[ -x $program ]] || fail "the build left no $program"
+[[ ! -d /proc/$packages_job ]] || echo "      waiting for the packages that draw the figures"
+packages_status=0
+wait "$packages_job" || packages_status=$?
+sed 's/^packages:/packages, beside the build:/' "$beside"
+# sudo may have asked for a password that nobody could type there
+[[ $packages_status -eq 0 ]] || cmake/install_debian_packages.sh "$set"
 took
 
 mkdir -p "$results"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up what is missing, builds everything and runs all tests. Needs nothing but Debian 12 and this folder.
+# Sets up what is missing, builds everything and runs all tests. Needs nothing but Debian 12 or 13 and this folder.
 #
 # usage: tests/run.sh [--preset NAME] [--jobs N] [--filter PATTERN] [-- CTEST_OPTIONS...]
 #   --preset NAME   a preset of CMakePresets.json: release (default, or $GNEISS_PRESET), release-asserts, dev (sanitizers)

@@ -76,7 +76,8 @@ class Machine(unittest.TestCase):
         return (self.here / INSTALLED).read_text().split()
 
     def test_sets_are_nested_and_a_run_asks_for_no_test_library(self) -> None:
-        run, crosscheck, tests = (self.packages(name) for name in ("run", "crosscheck", "tests"))
+        build, run, crosscheck, tests = (self.packages(name) for name in ("build", "run", "crosscheck", "tests"))
+        self.assertLess(set(build), set(run))
         self.assertLess(set(run), set(crosscheck))
         self.assertLess(set(crosscheck), set(tests))
         self.assertEqual(self.packages(), tests)

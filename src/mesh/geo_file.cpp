@@ -13,6 +13,9 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
+
+#include "mesh/crossed_lines.hpp"
 
 namespace gneiss {
 namespace {
@@ -191,6 +194,7 @@ void mesh_geo(GmshSession& session, const fs::path& file, const std::map<std::st
     const TemporaryFile before(fs::temp_directory_path(), definitions), after(fs::temp_directory_path(), comparisons);
     const std::unique_ptr<TemporaryFile> copy = mended(file, text, geo);
     if (copy) session.call(copy->path(), where);
+    std::vector<Problem> crossings;
     session.run(
         where,
         [&] {
@@ -200,10 +204,15 @@ void mesh_geo(GmshSession& session, const fs::path& file, const std::map<std::st
             std::vector<int> types;
             std::vector<std::vector<std::size_t>> elements, nodes;
             gmsh::model::mesh::getElements(types, elements, nodes, 2);
-            if (types.empty()) gmsh::model::mesh::generate(2);
+            if (types.empty()) {
+                crossings = crossed_outlines(where);
+                if (!crossings.empty()) return;
+                gmsh::model::mesh::generate(2);
+            }
             gmsh::model::mesh::setOrder(2);
         },
         is_harmless);
+    if (!crossings.empty()) throw InputError(std::move(crossings));
 }
 
 }  // namespace gneiss

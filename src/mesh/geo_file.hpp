@@ -15,7 +15,7 @@ namespace gneiss {
 /// that this version does not know, a field, a transfinite surface that does not work out, fragments of a lone surface)
 /// are left to the warnings of the session.
 /// @param parameters  numbers defined before the file is read
-/// @throws InputError with what Gmsh says
+/// @throws InputError with what Gmsh says, or with outlines that cross themselves (crossed_lines.hpp)
 void mesh_geo(GmshSession& session, const std::filesystem::path& file, const std::map<std::string, double>& parameters);
 
 }  // namespace gneiss

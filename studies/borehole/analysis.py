@@ -108,15 +108,21 @@ def cavity_errors(results: Results, case: Case, degrees: float = 0.0) -> dict[st
     }
 
 
-def front_crossings(results: Results, case: Case, degrees: float) -> tuple[Array, Array]:
-    """At FRONT_RADII: times of half the peak of the filtered radial velocity, and exact arrivals, s."""
+@lru_cache(maxsize=128)
+def _front_crossings(results: Results, case: Case) -> Array:
+    """Times of half the peak of the filtered radial velocity, s, shape (directions, radii): nearly all of the work of the
+    filter is the same for each."""
     t = results.table(case).t
     at = np.linspace(t[0], t[-1], TIMES.size)
-    v = np.stack([results.velocity(case, degrees, radius)[1] for radius in FRONT_RADII], -1)
-    filtered = gaussian_filter(t, v, case.filter_sigma, at)
-    crossings = [first_crossing(at, signal, 0.5 * peak(at, signal)[1]) for signal in filtered.T]
+    v = np.stack([[results.velocity(case, degrees, radius)[1] for radius in FRONT_RADII] for degrees in DIRECTIONS])
+    filtered = gaussian_filter(t, np.moveaxis(v, -1, 0), case.filter_sigma, at)
+    return np.apply_along_axis(lambda signal: first_crossing(at, signal, 0.5 * peak(at, signal)[1]), 0, filtered)
+
+
+def front_crossings(results: Results, case: Case, degrees: float) -> tuple[Array, Array]:
+    """At FRONT_RADII: times of half the peak of the filtered radial velocity, and exact arrivals, s."""
     arrivals = [case.stiffness.arrival(np.radians(degrees), radius, CAVITY_RADIUS) for radius in FRONT_RADII]
-    return np.array(crossings), np.array(arrivals)
+    return _front_crossings(results, case)[DIRECTIONS.index(degrees)], np.array(arrivals)
 
 
 def front_speed_error(results: Results, case: Case, degrees: float) -> dict[str, float]:

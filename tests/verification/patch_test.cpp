@@ -12,7 +12,7 @@ namespace gneiss {
 namespace {
 
 constexpr double patch_tolerance = 1e-10;  // relative, of the reference case
-constexpr double E = 60e9, nu = 0.25;
+constexpr double young = 60e9, poisson = 0.25;
 
 struct Patch {
     const char* name;
@@ -66,11 +66,11 @@ TEST_P(PatchTest, DistortedMesh_AffineBoundary_GivesAffineInteriorAndConstantStr
             MaterialOptions& material = what.materials[0];
             material.law = GetParam().law;
             material.stress_map = GetParam().map;
-            const TransverselyIsotropic bedded{E, 0.4 * E, 0.3, 0.2, 0.3 * E};
+            const TransverselyIsotropic bedded{young, 0.4 * young, 0.3, 0.2, 0.3 * young};
             material.constants = plane == Plane::stress ? transversely_isotropic_plane_stress(bedded)
                                                         : transversely_isotropic_plane_strain(bedded);
-            material.shear_modulus = lame_constants(E, nu).mu;
-            material.lame_lambda = lame_constants(E, nu).lambda;
+            material.shear_modulus = lame_constants(young, poisson).mu;
+            material.lame_lambda = lame_constants(young, poisson).lambda;
             material.axes.angle = angle;
             const test::Solid solid = test::distorted_solid(GetParam().compt, what);
 
@@ -99,7 +99,7 @@ TEST_P(PatchTest, DistortedMesh_AffineBoundary_GivesAffineInteriorAndConstantStr
             const std::vector<PointFields> fields = solid.system->point_fields(state);
             double size = 0;
             for (const double component : fields[0].cauchy) size = std::max(size, std::abs(component));
-            EXPECT_GT(size, 0.005 * E * 0.4);
+            EXPECT_GT(size, 0.005 * young * 0.4);
             for (const PointFields& point : fields)
                 for (std::size_t k = 0; k < 3; ++k)
                     EXPECT_NEAR(point.cauchy[k], fields[0].cauchy[k], patch_tolerance * size) << angle;

@@ -10,14 +10,14 @@
 namespace gneiss {
 namespace {
 
-constexpr double t_end = 2e-3;
+constexpr double run_end = 2e-3;
 
 TEST(WholeRun, EnergyBalance_EverythingActs_ClosesWithOrderTwo) {
     for (const bool compt : {false, true}) {
         for (const Form form : {Form::hyper, Form::hypo}) {
             const test::Solid solid = test::make_solid(test::rectangle(compt, 2, 2, {8, 8}), test::everything(form));
-            const double coarse = test::run_solid(*solid.system, t_end, {.safety = 0.4}).ledger.balance_error();
-            const test::SolidRun run = test::run_solid(*solid.system, t_end, {.safety = 0.2});
+            const double coarse = test::run_solid(*solid.system, run_end, {.safety = 0.4}).ledger.balance_error();
+            const test::SolidRun run = test::run_solid(*solid.system, run_end, {.safety = 0.2});
             EXPECT_LT(run.ledger.balance_error(), 1e-3) << compt;  // 150 steps from a jump of the pressure to the end
             EXPECT_LT(run.ledger.balance_error(), coarse / 3) << compt;
             // and every column has something to say
@@ -49,9 +49,9 @@ TEST(WholeRun, SavedHalfwayAndLoaded_End_HasTheSameBits) {
         IntegratorMemory memory;
         CentralDifference integrator({});
         March march;
-        march.t_end = t_end;
+        march.t_end = run_end;
         march.after_step = [&](const StepReport& step) {
-            if (memory.empty() && step.t > 0.4 * t_end) {
+            if (memory.empty() && step.t > 0.4 * run_end) {
                 saved = state;
                 memory = integrator.save();
             }

@@ -22,7 +22,7 @@ constexpr double length = 0.25;                                                 
 constexpr double penalty = 20 * 12e8 / length;                                    // Pa/m, of those
 constexpr double t_of_frame = 0.25;                                               // s
 /// Of openings in coordinates of order 1 when they are of order 1e-5, times what damage makes of it.
-constexpr double round_off = 1e-9;
+constexpr double frame_round_off = 1e-9;
 
 /// Edges on x = 1/2 of the unit square in two columns of cells of composites: two sides, four edges, eight ends.
 class CracksOfSquare : public test::OutputFolder {
@@ -101,10 +101,10 @@ TEST_F(CracksOfSquare, Ends_StandAtTheEndsOfTheirEdges) {
         const double x = grid.position(2 * edge, 0), y = grid.position(2 * edge, 1);
         const double y_other = grid.position(2 * edge + 1, 1);
         EXPECT_DOUBLE_EQ(x, 0.5);
-        EXPECT_NEAR(std::abs(y - y_other), length, round_off);
+        EXPECT_NEAR(std::abs(y - y_other), length, frame_round_off);
     }
     for (std::size_t end = 0; end < 8; ++end)
-        EXPECT_NEAR(of_ends("displacement")(end, 0), 0.5e-2, round_off) << "the middle line's";
+        EXPECT_NEAR(of_ends("displacement")(end, 0), 0.5e-2, frame_round_off) << "the middle line's";
 }
 
 TEST_F(CracksOfSquare, Softening_EndsTellOfTheirPath) {
@@ -117,34 +117,34 @@ TEST_F(CracksOfSquare, Softening_EndsTellOfTheirPath) {
     const double lost = integral / rate - 0.5 * (lambda * z - 1);
     ASSERT_GT(damage, 0.1);
     intrinsic(opening, slip);
-    expect_all(of_ends("end_opening"), opening, round_off * opening);
-    expect_all(of_ends("end_slip"), slip, round_off * slip);
-    expect_all(of_ends("end_damage"), damage, round_off);
-    expect_all(of_ends("end_dissipated_fracture_i"), a_i * lost, round_off * energy_i);
-    expect_all(of_ends("end_dissipated_fracture_ii"), a_ii * lost, round_off * energy_ii);
+    expect_all(of_ends("end_opening"), opening, frame_round_off * opening);
+    expect_all(of_ends("end_slip"), slip, frame_round_off * slip);
+    expect_all(of_ends("end_damage"), damage, frame_round_off);
+    expect_all(of_ends("end_dissipated_fracture_i"), a_i * lost, frame_round_off * energy_i);
+    expect_all(of_ends("end_dissipated_fracture_ii"), a_ii * lost, frame_round_off * energy_ii);
     expect_all(of_ends("end_tensile_strength"), tensile, 0);
     expect_all(of_ends("end_cohesion"), cohesion, 0);
-    expect_all(of_edges("damage"), damage, round_off);
-    expect_all(of_edges("dissipated_fracture"), (a_i + a_ii) * lost, round_off * energy_ii);
+    expect_all(of_edges("damage"), damage, frame_round_off);
+    expect_all(of_edges("dissipated_fracture"), (a_i + a_ii) * lost, frame_round_off * energy_ii);
     expect_all(of_edges("fracture_energy_i"), energy_i, 0);
     expect_all(of_edges("fracture_energy_ii"), energy_ii, 0);
-    expect_all(of_edges("penalty"), penalty, round_off * penalty);
-    expect_all(of_edges("mode"), opening * opening / (opening * opening + slip * slip), round_off);
+    expect_all(of_edges("penalty"), penalty, frame_round_off * penalty);
+    expect_all(of_edges("mode"), opening * opening / (opening * opening + slip * slip), frame_round_off);
     for (std::size_t edge = 0; edge < 4; ++edge) EXPECT_TRUE(std::isnan(of_edges("time_of_failure")(edge)));
 }
 
 TEST_F(CracksOfSquare, FailedInOpening_HaveDissipatedGInOpening) {
     intrinsic(1e-2, 0);
     expect_all(of_ends("end_damage"), 1, 0);
-    expect_all(of_ends("end_dissipated_fracture_i"), energy_i, round_off * energy_i);
-    expect_all(of_ends("end_dissipated_fracture_ii"), 0, round_off * energy_ii);
+    expect_all(of_ends("end_dissipated_fracture_i"), energy_i, frame_round_off * energy_i);
+    expect_all(of_ends("end_dissipated_fracture_ii"), 0, frame_round_off * energy_ii);
     expect_all(of_edges("time_of_failure"), t_of_frame, 0);
 }
 
 TEST_F(CracksOfSquare, FailedInSliding_HaveDissipatedGInSliding) {
     intrinsic(0, 1e-2);
-    expect_all(of_ends("end_dissipated_fracture_i"), 0, round_off * energy_i);
-    expect_all(of_ends("end_dissipated_fracture_ii"), energy_ii, round_off * energy_ii);
+    expect_all(of_ends("end_dissipated_fracture_i"), 0, frame_round_off * energy_i);
+    expect_all(of_ends("end_dissipated_fracture_ii"), energy_ii, frame_round_off * energy_ii);
 }
 
 TEST_F(CracksOfSquare, FailedInAConstantMix_FulfilTheLinearCriterion) {
@@ -154,7 +154,7 @@ TEST_F(CracksOfSquare, FailedInAConstantMix_FulfilTheLinearCriterion) {
         const double in_sliding = of_ends("end_dissipated_fracture_ii")(end);
         EXPECT_GT(in_opening, 0.1 * energy_i);
         EXPECT_GT(in_sliding, 0.1 * energy_ii);
-        EXPECT_NEAR(in_opening / energy_i + in_sliding / energy_ii, 1, round_off);
+        EXPECT_NEAR(in_opening / energy_i + in_sliding / energy_ii, 1, frame_round_off);
     }
 }
 
@@ -166,8 +166,8 @@ TEST_F(CracksOfSquare, Scatter_IsInTheStrengthsOfTheEnds) {
     for (std::size_t end = 0; end < 8; ++end) {
         const auto side = static_cast<std::uint64_t>(of_edges("side")(end / 2));
         const double factor = WeibullScatter{5, 3}.factor(side);
-        EXPECT_NEAR(of_ends("end_tensile_strength")(end), factor * tensile, round_off * tensile);
-        EXPECT_NEAR(of_ends("end_cohesion")(end), factor * cohesion, round_off * cohesion);
+        EXPECT_NEAR(of_ends("end_tensile_strength")(end), factor * tensile, frame_round_off * tensile);
+        EXPECT_NEAR(of_ends("end_cohesion")(end), factor * cohesion, frame_round_off * cohesion);
     }
 }
 
@@ -184,7 +184,7 @@ TEST_F(CracksOfSquare, Extrinsic_HaveTheStrengthAtWhichTheyOpened) {
     for (std::size_t end = 0; end < 8; ++end) {
         const double f = of_ends("end_tensile_strength")(end);
         EXPECT_NEAR(f, beyond * tensile, small_strain * tensile);
-        EXPECT_NEAR(of_ends("end_cohesion")(end), cohesion / tensile * f, round_off * cohesion);
+        EXPECT_NEAR(of_ends("end_cohesion")(end), cohesion / tensile * f, frame_round_off * cohesion);
         const double dissipated = of_ends("end_dissipated_fracture_i")(end);
         EXPECT_NEAR(dissipated, energy_i + 0.5 * f * f / penalty, small_strain * energy_i)
             << "and the energy of its offset";
@@ -202,14 +202,15 @@ TEST_F(CracksOfSquare, GoneOverToContact_DissipateNoMore) {
     const State pressed = accepted(apart, right_half_moved(rest.u, -1e-4, 0));
     write(accepted(pressed, right_half_moved(rest.u, -1e-4, 1e-2)));
     expect_all(of_edges("dissipated_friction"), 0, 0);
-    expect_all(of_ends("end_dissipated_fracture_i"), energy_i, round_off * energy_i);
+    expect_all(of_ends("end_dissipated_fracture_i"), energy_i, frame_round_off * energy_i);
 }
 
 TEST_F(CracksOfSquare, YCode_TellsItsEnergiesByMode) {
     intrinsic(1e-2, 0, options(FractureOptions::Method::y_code));
     const double rise = 2.0 / 3 * tensile * (2 * tensile / penalty);
-    expect_all(of_ends("end_dissipated_fracture_i"), 3 * softening_integral * energy_i + rise, round_off * energy_i);
-    expect_all(of_ends("end_dissipated_fracture_ii"), 0, round_off * energy_ii);
+    expect_all(of_ends("end_dissipated_fracture_i"), 3 * softening_integral * energy_i + rise,
+               frame_round_off * energy_i);
+    expect_all(of_ends("end_dissipated_fracture_ii"), 0, frame_round_off * energy_ii);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Sums of some thousand products.
-constexpr double round_off = 1e-11;
+constexpr double balance_round_off = 1e-11;
 
 class ProgramBalance : public test::ProgramTest {
 protected:
@@ -50,7 +50,7 @@ output = { history = 0.01 }
             for (const double energy : kinetic) EXPECT_GE(energy, 0) << scheme << more;
             EXPECT_GT(kinetic.back(), 1) << scheme << more;
             for (const double left_over : history("left_over [J]"))
-                EXPECT_LE(std::abs(left_over), round_off * kinetic.back()) << scheme << more;
+                EXPECT_LE(std::abs(left_over), balance_round_off * kinetic.back()) << scheme << more;
         }
 }
 
@@ -93,7 +93,7 @@ output = { history = 5e-5 }
 }
 
 /// A bar that is loaded and unloaded, statically.
-const std::string static_deck = R"toml(
+const std::string loaded_square_deck = R"toml(
 mesh = { generator = "rectangle", width = 1.0, height = 0.25, cells = [4, 1] }
 solid = { plane = "strain" }
 material = [{ density = 1000.0, constants = { E = 1e7, nu = 0.0 } }]
@@ -112,7 +112,7 @@ TEST_F(ProgramBalance, UnloadedStatics_AreMeasuredByWhatThereWas) {
                       support = "[[boundary]]\non = \"right\"\ntype = \"displacement\"\nvalue = [1e-3, \"free\"]\n" +
                                 up_and_down;
     for (const std::string& what : {load, support, std::string()}) {
-        put("case.toml", static_deck + what);
+        put("case.toml", loaded_square_deck + what);
         ASSERT_EQ(run({}).code, 0);
         const std::vector<double> tip = table("out/probes.csv")["tip.u_x [m]"];
         ASSERT_EQ(tip.size(), 9u);
@@ -129,7 +129,7 @@ TEST_F(ProgramBalance, LoadThatJumps_InStatics_DoesTheWorkThatIsStored) {
         for (const char* amplitude : {"amplitude = \"constant\"", "amplitude = \"heaviside\"",
                                       "amplitude = { type = \"heaviside\", start = 2.0 }"}) {
             put("case.toml",
-                static_deck + "[[load]]\non = \"right\"\ntype = \"traction\"\nvalue = [1e4, 0.0]\n" + amplitude);
+                loaded_square_deck + "[[load]]\non = \"right\"\ntype = \"traction\"\nvalue = [1e4, 0.0]\n" + amplitude);
             ASSERT_EQ(run({type}).code, 0);
             const double work = history("external_work [J]").back();
             EXPECT_NEAR(work, 0.5 * 1e4 * 0.25 * 1e-3, 2e-3 * work) << type << amplitude;  // strain
@@ -151,7 +151,7 @@ TEST_F(ProgramBalance, RunThatFails_LastRowHoldsNoEnergyThatNothingHasMade) {
         EXPECT_EQ(history("splitting [J]").back(), 0) << scheme;
         // as good as the rows before it
         const std::vector<double> error = history("balance_error");
-        EXPECT_LT(error.back(), 2 * error[error.size() - 2] + round_off) << scheme;
+        EXPECT_LT(error.back(), 2 * error[error.size() - 2] + balance_round_off) << scheme;
     }
 }
 

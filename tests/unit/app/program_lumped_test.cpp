@@ -14,7 +14,7 @@ using test::Ended;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const std::string deck = R"toml(title = "gas in a hole, a hammer on the top"
+const std::string lumped_deck = R"toml(title = "gas in a hole, a hammer on the top"
 mesh = { generator = "plate_with_hole", layout = "structured", side = 6.0, radius = 1.0, size = [0.8, 1.6] }
 solid = { plane = "strain" }
 run = { t_end = 4e-3, checkpoint = 2e-3 }
@@ -44,7 +44,7 @@ type = "fixed"
 
 class ProgramLumped : public test::ProgramTest, public testing::WithParamInterface<const char*> {
 protected:
-    ProgramLumped() { put("case.toml", deck); }
+    ProgramLumped() { put("case.toml", lumped_deck); }
     Ended run(const std::string& out, std::vector<std::string> more) const {
         more.insert(more.begin(), {"run", "case.toml", "--quiet", "--threads", "1", "--out", out});
         return gneiss(more);

@@ -50,7 +50,7 @@ $Elements
 $EndElements
 )";
 
-const std::string deck = R"toml(
+const std::string mesh_deck = R"toml(
 mesh = { file = "square.msh" }
 solid = { plane = "strain" }
 run = { t_end = 1e-4 }
@@ -65,7 +65,7 @@ protected:
         std::string mesh = square_msh;
         const std::size_t at = mesh.find(what);
         EXPECT_NE(at, std::string::npos) << what;
-        put("case.toml", deck);
+        put("case.toml", mesh_deck);
         put("square.msh", mesh.replace(at, what.size(), by));
         return gneiss({"check", "case.toml", "--threads", "1"});
     }

@@ -43,7 +43,8 @@ TEST_F(ProgramRun, WrongUse_IsRefusedWithTwo) {
              {{"runn", "case.toml"}, "no command `runn`, did you mean `run`?"},
              {{"run"}, "deck is required"},
              {{"run", "a.toml", "--thread", "1"}, "not expected"},
-             {{"run", "a.toml", "--threads", "0"}, "Value 0 not in range 1 to 1024"},
+             {{"run", "a.toml", "--threads", "0"}, "Value 0 not in range"},
+             {{"run", "a.toml", "--threads", "0"}, "1024"},  // versions of CLI11 write ranges in their own ways
              {{"run", "nowhere.toml"}, "nowhere.toml: no such deck, or not readable\n1 problem\n"},
              {{"list", "load"}, "given `load`, must be one of elements, materials, forms, stress maps"},
              {{"list", "load"}, "did you mean `loads`?"},

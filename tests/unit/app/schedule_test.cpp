@@ -23,9 +23,9 @@ Counts march(const CaseOptions& options, double dt) {
     for (double t = 0; t < options.run.t_end;) {
         double stop = schedule.next_stop(t);
         if (!(stop < options.run.t_end) || reached(stop, options.run.t_end)) stop = options.run.t_end;
-        const double n = std::ceil((stop - t) / dt - 1e-9), length = (stop - t) / std::max(1.0, n);
-        const double next = n > 1 ? t + length : stop;
-        const StepReport step{next, length};
+        const double n = std::ceil((stop - t) / dt - 1e-9), step_length = (stop - t) / std::max(1.0, n);
+        const double next = n > 1 ? t + step_length : stop;
+        const StepReport step{next, step_length};
         counts.rows += schedule.row_due(step);
         // whoever looks when told to misses no row
         EXPECT_EQ(schedule.row_due(step), !(next < schedule.next_look(t)) || !(next < options.run.t_end))

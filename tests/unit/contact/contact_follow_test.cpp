@@ -13,7 +13,7 @@
 namespace gneiss {
 namespace {
 
-Contact::Options rough() { return {.friction = 0.5, .restitution = 0.8, .skin = 0.05}; }
+Contact::Options rough_and_bouncing() { return {.friction = 0.5, .restitution = 0.8, .skin = 0.05}; }
 
 constexpr double cap = 3;
 
@@ -65,7 +65,7 @@ TEST_P(FollowOf, JointsFailOneByOne_AsIfStartedThere) {
     const std::vector<std::int32_t> order = shuffled(sides.sides().size());
     sides.open(order);
     const State state = displaced(mesh.n_nodes(), 2e-3, 1), later = displaced(mesh.n_nodes(), 2e-3, 2);
-    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
+    Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough_and_bouncing());
     std::vector<double> history(contact.n_history());
     contact.initial_history(history);
     EXPECT_EQ(stored(contact, state, history), 0) << "what is bonded does not touch";
@@ -78,7 +78,7 @@ TEST_P(FollowOf, JointsFailOneByOne_AsIfStartedThere) {
         ASSERT_EQ(history.size(), contact.n_history());
         EXPECT_DOUBLE_EQ(energies.splitting, stored(contact, state, history) - before);
 
-        Contact fresh({mesh, sides.original_of(), failed}, layers_of(mesh), cap, rough());
+        Contact fresh({mesh, sides.original_of(), failed}, layers_of(mesh), cap, rough_and_bouncing());
         std::vector<double> none(fresh.n_history());
         ASSERT_EQ(none.size(), history.size());
         fresh.initial_history(none);
@@ -93,7 +93,7 @@ TEST_P(FollowOf, JointsFailOneByOne_AsIfStartedThere) {
 TEST_P(FollowOf, NodesSplitAsSidesFail_AsIfStartedThere) {
     InnerSides sides(mesh);
     const std::size_t n_nodes = mesh.n_nodes();
-    Contact contact({mesh}, layers_of(mesh), cap, rough());
+    Contact contact({mesh}, layers_of(mesh), cap, rough_and_bouncing());
     std::vector<double> history(contact.n_history());
     contact.initial_history(history);
     std::vector<std::int32_t> failed;
@@ -109,7 +109,7 @@ TEST_P(FollowOf, NodesSplitAsSidesFail_AsIfStartedThere) {
                 state.u.push_back(double{state.u[2 * static_cast<std::size_t>(copy.original) + component]});
         PathEnergies energies;
         contact.follow({mesh, more, {}, {}, std::span(&side, 1)}, state, history, energies);
-        const Contact fresh({mesh, sides.original_of(), failed}, layers_of(mesh), cap, rough());
+        const Contact fresh({mesh, sides.original_of(), failed}, layers_of(mesh), cap, rough_and_bouncing());
         std::vector<double> none(fresh.n_history());
         ASSERT_EQ(none.size(), history.size());
         fresh.initial_history(none);
@@ -144,7 +144,7 @@ protected:
     State state = displaced(mesh.n_nodes(), 2e-4, 7);
 
     static Contact::Options coming_apart() {
-        Contact::Options options = rough();
+        Contact::Options options = rough_and_bouncing();
         options.comes_apart = true;
         return options;
     }
@@ -159,8 +159,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, Bonded, testing::Bool(),
                          [](const auto& instance) { return std::string(instance.param ? "Compt" : "Cst"); });
 
 TEST_P(Bonded, JointsThatGiveALittle_PressAsOneBodyAtTheirMeans) {
-    const Contact parted({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
-    const Contact one({whole}, layers_of(whole), cap, rough());
+    const Contact parted({mesh, sides.original_of()}, layers_of(mesh), cap, rough_and_bouncing());
+    const Contact one({whole}, layers_of(whole), cap, rough_and_bouncing());
     State mean;
     mean.u.assign(2 * whole.n_nodes(), 0.0);
     std::vector<double> n_copies(whole.n_nodes(), 0.0);
@@ -181,7 +181,7 @@ TEST_P(Bonded, JointsThatGiveALittle_PressAsOneBodyAtTheirMeans) {
 }
 
 TEST_P(Bonded, Tangent_IsThatOfDifferences) {
-    Contact::Options elastic = rough();
+    Contact::Options elastic = rough_and_bouncing();
     elastic.restitution = 1;  // otherwise the force has a kink where it is now
     const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, elastic);
     const std::vector<double> history = touched(contact);
@@ -289,7 +289,7 @@ TEST(FormerPoints, OfACopiedNode_AreThatNode_WithThePartOfTheLengthThatWasThere)
 }
 
 TEST_P(Bonded, SideThatStandsAlone_ComesApartWithItsNeighbour) {
-    const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough());
+    const Contact contact({mesh, sides.original_of()}, layers_of(mesh), cap, rough_and_bouncing());
     const ContactBodies& bodies = contact.bodies();
     EXPECT_EQ(bodies.come_apart(all), all);
     const auto at = [&](double x, double y) {
@@ -333,7 +333,7 @@ TEST(ContactBodies, SideThatFailsWhereItsFacesHaveANodeInCommon_StaysBondedThere
     }
     ASSERT_EQ(upper.size(), 2u);
     ASSERT_EQ(lower.size(), 1u);
-    Contact contact({mesh}, layers_of(mesh), cap, rough());
+    Contact contact({mesh}, layers_of(mesh), cap, rough_and_bouncing());
     std::vector<double> history(contact.n_history());
     contact.initial_history(history);
     const std::size_t n_edges = contact.bodies().points().of_edge.size();

@@ -20,7 +20,7 @@ namespace {
 
 using Law = MixedModeLaw<Insertion::intrinsic>;
 
-const CohesionProperties<double> strength{.tensile_strength = 3e6,
+const CohesionProperties<double> cohesion{.tensile_strength = 3e6,
                                           .cohesion = 8e6,
                                           .tan_phi_initial = 0.6,
                                           .tan_phi_residual = 0.4,
@@ -29,7 +29,7 @@ const CohesionProperties<double> strength{.tensile_strength = 3e6,
                                           .penalty = 1e11};
 // Openings are up to these, m, and 3e-5 at the strength. In between many ends are further apart than that and intact,
 // because they are compressed or slide: packs of them need the law to tell, most do stay elastic.
-constexpr double elastic = 5e-6, mixed = 3.2e-5, softening = 5e-5;
+constexpr double elastic_size = 5e-6, mixed_size = 3.2e-5, softening_size = 5e-5;
 
 class JointsInChunks : public testing::TestWithParam<bool> {
 protected:
@@ -43,7 +43,7 @@ protected:
         std::iota(all.begin(), all.end(), 0);
         sides.open(all);
         sides.renumber();
-        for (const JointEdge& edge : joint_edges(mesh, sides, all)) joints.push_back({edge.nodes, strength, edge.side});
+        for (const JointEdge& edge : joint_edges(mesh, sides, all)) joints.push_back({edge.nodes, cohesion, edge.side});
         apart = test::make_solid(mesh, {});
         const Mesh copy = mesh;  // make_solid() takes the mesh before it asks for more parts
         solid = test::make_solid(std::move(mesh), {}, [&](SolidSystem::Parts& parts) {
@@ -76,7 +76,7 @@ protected:
 };
 
 TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
-    for (const double size : {elastic, mixed, softening}) {
+    for (const double size : {elastic_size, mixed_size, softening_size}) {
         const State at = moved(size);
         std::vector<double> expected(at.u.size());
         apart.system->force(apart.system->initial_state(), Trial::of(at), expected);
@@ -92,8 +92,8 @@ TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
             const auto motion = joint_motion(edge, u);
             std::array<Traction<double>, joint_points> tractions;
             for (std::size_t i = 0; i < joint_points; ++i) {
-                tractions[i] = Law::traction(strength, {}, motion.opening[i], motion.slip[i]);
-                n_intact += Law::stays_intact(strength, 0.0, motion.opening[i], motion.slip[i]);
+                tractions[i] = Law::traction(cohesion, {}, motion.opening[i], motion.slip[i]);
+                n_intact += Law::stays_intact(cohesion, 0.0, motion.opening[i], motion.slip[i]);
             }
             const auto f = joint_forces(motion, 0.5 * std::sqrt(dot(edge, edge)), tractions);
             for (std::size_t k = 0; k < joint_nodes; ++k) {
@@ -102,7 +102,7 @@ TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
                 expected[2 * node + 1] += f[k].y;
             }
         }
-        if (size == elastic) {
+        if (size == elastic_size) {
             EXPECT_EQ(n_intact, joint_points * joints.size());
         } else {
             EXPECT_LT(n_intact, joint_points * joints.size());
@@ -117,7 +117,7 @@ TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
 }
 
 TEST_P(JointsInChunks, InteractionForce_IsWhatTheyAddToTheElements) {
-    const State at = moved(mixed);
+    const State at = moved(mixed_size);
     std::vector<double> elements(at.u.size()), joined(at.u.size(), 1e300);
     apart.system->force(apart.system->initial_state(), Trial::of(at), elements);
     solid.system->interaction_force(rest, Trial::of(at), joined);
@@ -129,7 +129,7 @@ TEST_P(JointsInChunks, InteractionForce_IsWhatTheyAddToTheElements) {
 }
 
 TEST_P(JointsInChunks, Threads_AnyNumber_SameBits) {
-    for (const double size : {elastic, mixed, softening}) {
+    for (const double size : {elastic_size, mixed_size, softening_size}) {
         const State at = moved(size);
         const Answer once = answer(at);
         for (const int threads : {2, 3}) {
@@ -170,7 +170,7 @@ TEST_P(JointsInChunks, DisplacementsOnTheirWay_ComeOnceBeforeTheForce_SameBits) 
             const State from = one->system->initial_state();
             State at = from;
             std::mt19937 random(4);
-            std::uniform_real_distribution<double> uniform(-mixed, mixed);
+            std::uniform_real_distribution<double> uniform(-mixed_size, mixed_size);
             for (double& u : at.u) u = uniform(random);
             std::vector<double> expected(at.u.size()), f(at.u.size(), Counted::no_force), z(at.z.size()),
                 history(at.history), u(at.u.size(), std::numeric_limits<double>::quiet_NaN());

@@ -94,8 +94,8 @@ TEST_P(NodalCriterionUnderLoad, Ends_BeginWithTheUtilisationThatOpenedThem) {
         if (solid.cracking->n_events() == n_openings) return true;
         n_openings = solid.cracking->n_events();
         // round-off of forces that are a hundred times the node's
-        constexpr double round_off = 1e-9;
-        EXPECT_NEAR(solid.cracking->overshoot(state).largest, std::max(largest, 0.0), round_off)
+        constexpr double of_large_forces = 1e-9;
+        EXPECT_NEAR(solid.cracking->overshoot(state).largest, std::max(largest, 0.0), of_large_forces)
             << "opening " << n_openings << " at " << state.t;
         return n_openings < n_events;
     };

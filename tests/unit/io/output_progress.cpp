@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 ProgressState example() { return {0.008, 0.02, 12000, 2e-7, 3.14e-5, {"12 cracks"}, {}}; }
 
@@ -69,15 +69,15 @@ TEST(ProgressBar, AnyWidth_FitsAndNeverShrinksWithMoreRoom) {
 }
 
 TEST(ProgressBar, Ends_AreEmptyAndFull) {
-    EXPECT_EQ(progress_bar({0, 1, 0, 1e-3}, nan, 24), "[--------------]    0 %");
+    EXPECT_EQ(progress_bar({0, 1, 0, 1e-3}, unknown, 24), "[--------------]    0 %");
     EXPECT_EQ(progress_bar({1, 1, 10, 1e-3}, 0, 24), "[##############]  100 %");
     EXPECT_EQ(progress_bar({0.99999, 1, 10, 1e-3}, 0, 24), "[#############-]   99 %");
     EXPECT_EQ(progress_bar({1.5, 1, 10, 1e-3}, 0, 24), "[##############]  100 %");
-    EXPECT_EQ(progress_bar({nan, 1, 10, 1e-3}, 0, 24), "[--------------]    0 %");
+    EXPECT_EQ(progress_bar({unknown, 1, 10, 1e-3}, 0, 24), "[--------------]    0 %");
 }
 
 TEST(ProgressBar, UnknownNumbers_AreLeftOutOrDashed) {
-    const std::string line = progress_bar({0, 1, 0, 1e-3}, nan, 200);
+    const std::string line = progress_bar({0, 1, 0, 1e-3}, unknown, 200);
     EXPECT_THAT(line, HasSubstr("left --"));
     EXPECT_THAT(line, Not(HasSubstr("balance")));
 }
@@ -102,7 +102,7 @@ TEST(DurationText, HasTwoUnitsAtMost) {
     EXPECT_EQ(duration_text(59.6), "1 min 00 s");
     EXPECT_EQ(duration_text(7384), "2 h 03 min");
     EXPECT_EQ(duration_text(273600), "3 d 04 h");
-    EXPECT_EQ(duration_text(nan), "--");
+    EXPECT_EQ(duration_text(unknown), "--");
     EXPECT_EQ(duration_text(std::numeric_limits<double>::infinity()), "--");
     EXPECT_EQ(duration_text(-1), "--");
 }

@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// The unit square in 4 x 4 cells with both diagonals, sub-edges of 1/8 m.
-MeshOptions square(std::vector<InnerLine> lines) {
+MeshOptions square_with_lines(std::vector<InnerLine> lines) {
     MeshOptions options;
     options.cells = {4, 4};
     options.pattern = MeshOptions::Pattern::crossed;
@@ -24,7 +24,7 @@ MeshOptions square(std::vector<InnerLine> lines) {
 }
 
 std::string error_of(std::vector<InnerLine> lines) {
-    return input_error_of([&] { make_mesh(square(std::move(lines)), true, "."); });
+    return input_error_of([&] { make_mesh(square_with_lines(std::move(lines)), true, "."); });
 }
 
 double length_of(const Mesh& mesh, const std::vector<ElementSide>& sides) {
@@ -43,8 +43,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, InnerLinesOf, ::testing::Bool(),
                          [](const auto& instance) { return std::string(instance.param ? "Compt" : "Cst"); });
 
 TEST_P(InnerLinesOf, StraightAndSlanted_AreCoveredFromEndToEnd) {
-    const Mesh mesh =
-        make_mesh(square({{"across", {0, 0.5}, {0.5, 0.5}}, {"rising", {1, 1}, {0.25, 0.25}}}), GetParam(), ".");
+    const Mesh mesh = make_mesh(square_with_lines({{"across", {0, 0.5}, {0.5, 0.5}}, {"rising", {1, 1}, {0.25, 0.25}}}),
+                                GetParam(), ".");
     for (const auto& [name, length, n_composites] :
          {std::tuple("across", 0.5, 2u), std::tuple("rising", 0.75 * std::sqrt(2.0), 6u)}) {
         const auto& sides = mesh.inner_lines.at(name);
@@ -55,7 +55,7 @@ TEST_P(InnerLinesOf, StraightAndSlanted_AreCoveredFromEndToEnd) {
 }
 
 TEST_P(InnerLinesOf, OpenedLine_PartsTheSolidAlongIt) {
-    Mesh mesh = make_mesh(square({{"notch", {0, 0.5}, {0.5, 0.5}}}), GetParam(), ".");
+    Mesh mesh = make_mesh(square_with_lines({{"notch", {0, 0.5}, {0.5, 0.5}}}), GetParam(), ".");
     InnerSides inner(mesh);
     std::vector<std::int32_t> sides;
     for (const ElementSide& side : mesh.inner_lines.at("notch")) {
@@ -75,7 +75,7 @@ TEST_P(InnerLinesOf, Composites_EndAtCornersAlone) {
         EXPECT_THAT(error_of(lines),
                     AllOf(HasSubstr("mesh.lines `short`: the line is 0.125 m long"), HasSubstr("cover 0 m")));
     else
-        EXPECT_EQ(make_mesh(square(lines), false, ".").inner_lines.at("short").size(), 1u);
+        EXPECT_EQ(make_mesh(square_with_lines(lines), false, ".").inner_lines.at("short").size(), 1u);
 }
 
 TEST(InnerLines, LineWithAGap_SaysWhereAndHowMuch) {

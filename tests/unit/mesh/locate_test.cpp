@@ -17,7 +17,7 @@ Point2 position(const Mesh& mesh, const MeshPoint& point) {
     return x;
 }
 
-MeshOptions plate() {
+MeshOptions located_plate() {
     MeshOptions options;
     options.source = MeshOptions::Source::plate_with_hole;
     options.side = 6;
@@ -28,7 +28,7 @@ MeshOptions plate() {
 
 class Locate : public ::testing::TestWithParam<bool> {
 protected:
-    Mesh mesh = make_mesh(plate(), GetParam(), ".");
+    Mesh mesh = make_mesh(located_plate(), GetParam(), ".");
 
     void expect_sound(const MeshPoint& point) const {
         EXPECT_EQ(point.nodes, triangle_nodes(mesh, static_cast<std::size_t>(point.element), point.sub_triangle));

@@ -10,7 +10,7 @@ using namespace gneiss::testing;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-MeshOptions plate() {
+MeshOptions made_plate() {
     MeshOptions options;
     options.source = MeshOptions::Source::plate_with_hole;
     options.side = 4;
@@ -20,7 +20,7 @@ MeshOptions plate() {
 }
 
 TEST(MakeMesh, Cst_StandsOnTheNodesOfTheComposites) {
-    const Mesh composites = make_mesh(plate(), true, "."), cst = make_mesh(plate(), false, ".");
+    const Mesh composites = make_mesh(made_plate(), true, "."), cst = make_mesh(made_plate(), false, ".");
     EXPECT_EQ(cst.kind, ElementKind::cst);
     EXPECT_EQ(cst.nodes, composites.nodes);
     EXPECT_EQ(cst.node_labels, composites.node_labels);
@@ -30,7 +30,7 @@ TEST(MakeMesh, Cst_StandsOnTheNodesOfTheComposites) {
 }
 
 TEST(MakeMesh, Cst_AreTheSubTrianglesInOrderCounterClockwise) {
-    const Mesh composites = make_mesh(plate(), true, "."), cst = make_mesh(plate(), false, ".");
+    const Mesh composites = make_mesh(made_plate(), true, "."), cst = make_mesh(made_plate(), false, ".");
     EXPECT_GT(smallest_signed_area(cst), 0);
     for (std::size_t e = 0; e < composites.n_elements(); ++e)
         for (std::size_t s = 0; s < 4; ++s) {
@@ -42,7 +42,7 @@ TEST(MakeMesh, Cst_AreTheSubTrianglesInOrderCounterClockwise) {
 }
 
 TEST(MakeMesh, Cst_BoundaryEdgesBelongToTheirSubTriangle) {
-    const Mesh composites = make_mesh(plate(), true, "."), cst = make_mesh(plate(), false, ".");
+    const Mesh composites = make_mesh(made_plate(), true, "."), cst = make_mesh(made_plate(), false, ".");
     expect_sound_boundaries(cst);
     for (const auto& [name, edges] : composites.boundaries) {
         ASSERT_EQ(cst.boundaries.at(name).size(), edges.size());

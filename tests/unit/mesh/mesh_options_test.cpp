@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 auto says(const char* text) { return Field(&Problem::message, HasSubstr(text)); }
 
-MeshOptions plate() {
+MeshOptions plate_options() {
     MeshOptions options;
     options.source = MeshOptions::Source::plate_with_hole;
     options.side = 4;
@@ -59,7 +59,7 @@ TEST(MeshOptions, QuadrilateralThatIsNotConvexOrRunsClockwise_IsRefused) {
 }
 
 TEST(MeshOptions, BadPlate_ReportsEveryProblem) {
-    MeshOptions options = plate();
+    MeshOptions options = plate_options();
     options.side = 2;
     options.size = {0, std::numeric_limits<double>::quiet_NaN()};
     EXPECT_THAT(validate(options),
@@ -87,14 +87,14 @@ TEST(MeshOptions, BadFile_ReportsEveryProblem) {
 }
 
 TEST(MeshOptions, OtherSource_LeavesItsOptionsAlone) {
-    MeshOptions options = plate();
+    MeshOptions options = plate_options();
     options.width = -1;
     options.file = "plate.vtk";
     EXPECT_THAT(validate(options), IsEmpty());
 }
 
 TEST(MeshOptions, AbsurdlyManyElements_AreRefusedBeforeMeshing) {
-    MeshOptions options = plate();
+    MeshOptions options = plate_options();
     options.size = {1e-7, 1e-7};
     for (auto layout : {MeshOptions::Layout::free, MeshOptions::Layout::structured}) {
         options.layout = layout;
@@ -108,7 +108,7 @@ TEST(MeshOptions, AbsurdlyManyElements_AreRefusedBeforeMeshing) {
 TEST(MeshOptions, ExpectedComposites_MatchTheMesh) {
     // Gmsh's triangles are not quite equilateral.
     constexpr double free_mesh_tolerance = 0.2;
-    MeshOptions options = plate();
+    MeshOptions options = plate_options();
     options.layout = MeshOptions::Layout::structured;
     EXPECT_EQ(expected_composites(options), static_cast<double>(make_mesh(options, true, ".").n_elements()));
     options.layout = MeshOptions::Layout::free;
