@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <numbers>
 #include <random>
 #include <span>
 
 #include "app/build_case.hpp"
 #include "io/deck/deck.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/touching_solids.hpp"
 #include "verification/run_solid.hpp"
@@ -21,7 +21,9 @@
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon(), gravity = 9.81;
+using test::eps;
+
+constexpr double gravity = 9.81;
 
 Case case_of(const std::string& deck, const std::vector<std::string>& set = {}) {
     return build_case(read_deck(std::filesystem::path(GNEISS_DECKS) / deck, set));

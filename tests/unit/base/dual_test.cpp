@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/functions.hpp"
 #include "base/series.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/packs.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 // A function and its derivative take a handful of operations on numbers near 1.
 constexpr double round_off = 8 * eps;
 // Truncation and round-off of the central difference, see difference_step; fifth derivatives below are up to some tens.

@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
+#include "support/eps.hpp"
 #include "support/packs.hpp"
 
 namespace gneiss {
 namespace {
 
+using test::eps;
+
 constexpr long double pi = 3.14159265358979323846264338327950288L;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // A polynomial of degree 9 whose first term dominates, or a library function good to some units in the last place.
 constexpr double round_off = 4 * eps;
 // Three functions on top of one another, of moderate condition numbers below |c| = 2.

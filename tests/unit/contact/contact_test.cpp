@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include <limits>
 #include <random>
 
 #include "base/errors.hpp"
 #include "model/rigid_motions.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/touching_solids.hpp"
 #include "system/march.hpp"
@@ -18,10 +18,9 @@
 namespace gneiss {
 namespace {
 
+using test::eps;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A block of 1 m x 0.5 m on one of 2 m x 1 m with nodes elsewhere, a little askew.
 Mesh stacked(bool compt, double gap = 1e-9) {

@@ -6,11 +6,13 @@
 #include <limits>
 
 #include "element_cases.hpp"
+#include "support/eps.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double axis = 0.4;
 using Compt = CompositeTriangle;
 constexpr int n_dof = 2 * Compt::n_nodes;

@@ -7,13 +7,15 @@
 #include <numbers>
 
 #include "element_cases.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/packs.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 // Forces are stresses of up to 1e9 Pa on lengths and a thickness near 1 m; some hundred operations.
 constexpr double force_scale = modulus;
 constexpr double round_off = 200 * eps * force_scale;

@@ -5,16 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fracture/envelope.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "unit/fracture/loaded_point.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 // Relative to strengths and energies: some tens of operations, and damage summed over up to a thousand steps.
 constexpr double round_off = 1e-12;
 

@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fracture/cohesion_law.hpp"
+#include "support/eps.hpp"
 #include "unit/fracture/loaded_point.hpp"
 
 namespace gneiss {
 namespace {
 
+using test::eps;
 using Law = MixedModeLaw<Insertion::extrinsic>;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double round_off = 16 * eps;  // relative: a dozen operations
 
 TEST(Envelope, Index_OfTheThreeStrengths_IsOne) {

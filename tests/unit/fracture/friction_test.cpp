@@ -1,14 +1,15 @@
 #include "fracture/friction.hpp"
+#include "support/eps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double k = 2e12;                    // Pa/m
 constexpr double limit = 1e6;                 // Pa; reached at a slip of half a micrometre
 constexpr double round_off = 16 * eps;        // relative: a dozen operations

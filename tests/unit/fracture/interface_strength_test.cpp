@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "support/eps.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 const InterfaceStrength weak_bedding{.tensile_strength = {1e6, 4e6},
                                      .cohesion = {3e6, 9e6},

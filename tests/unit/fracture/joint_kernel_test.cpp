@@ -5,17 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/dual.hpp"
 #include "base/pack.hpp"
+#include "support/eps.hpp"
 #include "support/packs.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double degree = std::numbers::pi / 180;
 constexpr Vec2<double> edge{0.8, 0.6};  // of length 1 m
 template <class T>

@@ -3,14 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 // a dozen operations on numbers near 1
 constexpr double round_off = 16 * eps;
 

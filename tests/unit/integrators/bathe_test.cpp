@@ -16,7 +16,7 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-std::unique_ptr<Bathe> with(double rho_inf, double dt) {
+std::unique_ptr<Bathe> bathe_with(double rho_inf, double dt) {
     return std::make_unique<Bathe>(Bathe::Options{rho_inf, dt, {.tolerance = 1e-12}});
 }
 
@@ -24,7 +24,7 @@ TEST(Bathe, RhoInfZero_IsTheTrapezoidalRuleThenThreePointBackwardEuler) {
     // Bathe (2007), of x'' = -omega^2 x with the split 2 - sqrt(2): a2 = c1 v + c2 v1 + c3 v2, v2 likewise of u
     const double omega = 3, g = 2 - std::sqrt(2.0);
     const double c1 = (1 - g) / g, c2 = -1 / ((1 - g) * g), c3 = (2 - g) / (1 - g);
-    const auto matrix = test::amplification([](double dt) { return with(0, dt); }, omega);
+    const auto matrix = test::amplification([](double dt) { return bathe_with(0, dt); }, omega);
     for (int column = 0; column < 2; ++column) {
         const double u = column == 0, v = omega * column, h = g / 2, w = omega * omega;
         const double u1 = (u + 2 * h * v - h * h * w * u) / (1 + h * h * w), v1 = v - h * w * (u + u1);
@@ -39,7 +39,7 @@ TEST(Bathe, RhoInfZero_IsTheTrapezoidalRuleThenThreePointBackwardEuler) {
 TEST(Bathe, SpectralRadius_AtInfinityIsRhoInf_AndIsNowhereAboveOne) {
     for (const double rho : {0.0, 0.3, 0.5, 0.8, 1.0}) {
         const auto radius = [&](double omega) {
-            return test::spectral_radius(test::amplification([&](double dt) { return with(rho, dt); }, omega));
+            return test::spectral_radius(test::amplification([&](double dt) { return bathe_with(rho, dt); }, omega));
         };
         // the eigenvalues meet at -rho as the root of 1/(omega dt)
         EXPECT_NEAR(radius(1e5), rho, 2 / std::sqrt(1e5));
@@ -49,7 +49,7 @@ TEST(Bathe, SpectralRadius_AtInfinityIsRhoInf_AndIsNowhereAboveOne) {
 
 TEST(Bathe, RhoInfOne_LinearUndamped_KeepsTheEnergy) {
     const test::Oscillator system(test::two_nodes());
-    const auto integrator = with(1, 0.5);
+    const auto integrator = bathe_with(1, 0.5);
     State state = system.initial_state();
     integrator->start(system, state, StartReason::fresh);
     const auto energy = [&] { return integrator->kinetic_energy(system, state) + system.stored_energies(state).sum(); };
@@ -65,7 +65,7 @@ TEST(Bathe, RhoInfOne_LinearUndamped_KeepsTheEnergy) {
 TEST(Bathe, LinearProblemWithEqualSteps_FactorisesOnce) {
     const test::Oscillator system(test::two_nodes());
     for (const double rho : {0.0, 0.4, 1.0}) {
-        const auto integrator = with(rho, 0.1);
+        const auto integrator = bathe_with(rho, 0.1);
         State state = system.initial_state();
         integrator->start(system, state, StartReason::fresh);
         while (state.t < 10) integrator->advance(system, state, 10);
@@ -76,7 +76,7 @@ TEST(Bathe, LinearProblemWithEqualSteps_FactorisesOnce) {
 TEST(Bathe, OneForceThatFails_WhereverInTheStep_HalvesIt) {
     for (int n = 0; n < 4; ++n) {
         test::Oscillator system(test::two_nodes());
-        const auto integrator = with(0.5, 0.125);
+        const auto integrator = bathe_with(0.5, 0.125);
         State state = system.initial_state();
         integrator->start(system, state, StartReason::fresh);
         system.fail_after(n);
@@ -106,7 +106,7 @@ TEST(Bathe, SystemWithoutTangent_IsRefused) {
     model.has_tangent = false;
     const test::Oscillator system(model);
     State state = system.initial_state();
-    EXPECT_THROW(with(0, 0.1)->start(system, state, StartReason::fresh), InputError);
+    EXPECT_THROW(bathe_with(0, 0.1)->start(system, state, StartReason::fresh), InputError);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::distance;
 using test::Oscillator;
 using test::OscillatorModel;
 
-constexpr double t_end = test::oscillator_end;
+constexpr double end_time = test::oscillator_end;
 /// STYLE: |p_obs - p| < 0.15 over three halvings.
 constexpr double order_tolerance = 0.15;
 State march(const OscillatorModel& model, double dt) {
@@ -24,15 +24,15 @@ State march(const OscillatorModel& model, double dt) {
     CentralDifference integrator({.safety = 1.0, .dt = dt});
     State state = system.initial_state();
     March march;
-    march.t_end = t_end;
+    march.t_end = end_time;
     // stops at irregular times, so that steps of different length follow each other
     march.next_stop = [](double t) {
         for (const double stop : {0.31, 0.6, 1.13, 1.7})
             if (stop > t) return stop;
-        return t_end;
+        return end_time;
     };
     march.run(system, integrator, state, false);
-    EXPECT_EQ(state.t, t_end);
+    EXPECT_EQ(state.t, end_time);
     return state;
 }
 
@@ -40,7 +40,7 @@ class CentralDifferenceOrder : public testing::TestWithParam<test::OscillatorPro
 
 TEST_P(CentralDifferenceOrder, ThreeHalvings_WholeState_IsTwo) {
     const OscillatorModel model = GetParam().model();
-    const State exact = runge_kutta(Oscillator(model), t_end, test::oscillator_reference_step);
+    const State exact = runge_kutta(Oscillator(model), end_time, test::oscillator_reference_step);
     double before = distance(march(model, 0.01), exact);
     for (const double dt : {0.005, 0.0025, 0.00125}) {
         const double error = distance(march(model, dt), exact);

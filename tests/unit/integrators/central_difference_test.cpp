@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/oscillator.hpp"
 #include "system/march.hpp"
@@ -13,14 +14,13 @@
 namespace gneiss {
 namespace {
 
+using test::eps;
 using test::Matrix;
 using test::Oscillator;
 using test::OscillatorModel;
 using test::Vector;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A chain of two nodes; mass 1 kg everywhere, largest frequency about 12 rad/s.
 OscillatorModel chain() {

@@ -30,8 +30,8 @@ using test::Oscillator;
 using test::OscillatorModel;
 using Made = std::unique_ptr<Integrator>;
 
-constexpr double dt = 0.05;  ///< s, below every limit: omega dt = 0.42
-constexpr int n_steps = 6;
+constexpr double counted_step = 0.05;  ///< s, below every limit: omega dt = 0.42
+constexpr int n_counted = 6;
 /// Of a start: its forces, and those now and a little later that scales of errors are taken from.
 constexpr std::size_t with_scales = 3;
 
@@ -76,8 +76,8 @@ Evaluations evaluations_of(Integrator& integrator, const OscillatorModel& model)
     State state = system.initial_state();
     integrator.start(system, state, StartReason::fresh);
     Evaluations all;
-    for (int step = 0; step < n_steps; ++step) {
-        all.of_step.push_back(integrator.advance(system, state, n_steps * dt).n_force);
+    for (int step = 0; step < n_counted; ++step) {
+        all.of_step.push_back(integrator.advance(system, state, n_counted * counted_step).n_force);
         all.own += all.of_step.back();
     }
     const WorkCounts work = integrator.work();
@@ -91,7 +91,7 @@ Evaluations evaluations_of(Integrator& integrator, const OscillatorModel& model)
 Made arkode(const RungeKuttaTable& table) {
     Arkode::Options options;
     options.table = table.name;
-    options.dt = dt;
+    options.dt = counted_step;
     options.rtol = 1e-10;  // of its Newton iterations
     return std::make_unique<Arkode>(options);
 }
@@ -106,7 +106,7 @@ std::vector<const RungeKuttaTable*> tables_of(RungeKuttaTable::Kind kind) {
 /// What ARKODE's dense output evaluates for the middles of steps, which the energy balance asks for.
 std::size_t dense_output(const RungeKuttaTable& table) {
     const std::size_t of_step = table.order() < 5 ? 0 : table.order() == 5 ? 1 : 4;
-    return of_step * n_steps;
+    return of_step * n_counted;
 }
 
 class ExplicitTable : public testing::TestWithParam<const RungeKuttaTable*> {};
@@ -116,7 +116,7 @@ TEST_P(ExplicitTable, AStep_EvaluatesItsStages) {
     const std::unique_ptr<ARKodeButcherTableMem, void (*)(ARKodeButcherTable)> table(
         ARKodeButcherTable_LoadERK(static_cast<ARKODE_ERKTableID>(name.explicit_id)), ARKodeButcherTable_Free);
     const auto stages = static_cast<std::size_t>(table->stages);
-    std::vector<std::size_t> expected(n_steps, stages);
+    std::vector<std::size_t> expected(n_counted, stages);
 #if GNEISS_SUNDIALS_HAS_LAZY_RATES
     // the first stage of all is the start's; what a step ends with begins the next one, and is evaluated unless it was
     // the last stage
@@ -135,8 +135,8 @@ TEST_P(ExplicitTable, AStep_EvaluatesItsStages) {
         EXPECT_EQ(found.starts, with_scales) << which;
         // the work of a support that moves: its force in the middle of every step, and at the end where no stage is
         const std::size_t dense = dense_output(name);
-        EXPECT_GE(found.balance, dense + (which == "moving" ? n_steps : 0u)) << which;
-        EXPECT_LE(found.balance, dense + (which == "moving" ? 2 * n_steps + 1 : 0u)) << which;
+        EXPECT_GE(found.balance, dense + (which == "moving" ? n_counted : 0u)) << which;
+        EXPECT_LE(found.balance, dense + (which == "moving" ? 2 * n_counted + 1 : 0u)) << which;
         EXPECT_EQ(found.own + found.starts + found.balance, found.by_system) << which;
     }
 }
@@ -167,8 +167,8 @@ TEST_P(ImplicitTable, AStep_EvaluatesItsNewtonIterationsAndItsStages) {
     const Evaluations found = evaluations_of(*arkode(name), with_supports(false));
     // an iteration that moves nothing evaluates nothing; a stage that is solved, and the end of a step, once more each
     const auto stages = static_cast<std::size_t>(table->stages);
-    EXPECT_LE(found.own, found.iterations + n_steps * (stages + 1));
-    EXPECT_GE(found.own, n_steps * stages);
+    EXPECT_LE(found.own, found.iterations + n_counted * (stages + 1));
+    EXPECT_GE(found.own, n_counted * stages);
     EXPECT_EQ(found.starts, with_scales);
     EXPECT_EQ(found.balance, dense_output(name));
     EXPECT_EQ(found.own + found.starts + found.balance, found.by_system);
@@ -190,7 +190,7 @@ struct OwnCounts {
 void PrintTo(const OwnCounts& scheme, std::ostream* out) { *out << scheme.name; }
 
 std::vector<OwnCounts> explicit_schemes() {
-    const StableStep::Options step{.safety = 1, .dt = dt};
+    const StableStep::Options step{.safety = 1, .dt = counted_step};
     std::vector<OwnCounts> schemes{
         {"CentralDifference", 1, 1, true, [=] { return std::make_unique<CentralDifference>(step); }},
         {"NohBathe", 2, 2, true, [=] { return std::make_unique<NohBathe>(NohBathe::Options{.step = step}); }}};
@@ -213,13 +213,13 @@ TEST_P(ExplicitScheme, AStep_EvaluatesItsSubSteps) {
     const OwnCounts& scheme = GetParam();
     for (const bool held : {false, true}) {
         const Evaluations found = evaluations_of(*scheme.make(), held ? with_supports(true) : free_nodes());
-        EXPECT_EQ(found.of_step, std::vector<std::size_t>(n_steps, scheme.of_step));
+        EXPECT_EQ(found.of_step, std::vector<std::size_t>(n_counted, scheme.of_step));
         EXPECT_EQ(found.starts, 1u);
-        EXPECT_EQ(found.balance, held && !scheme.forces_at_ends ? n_steps : 0u);  // of the reactions
+        EXPECT_EQ(found.balance, held && !scheme.forces_at_ends ? n_counted : 0u);  // of the reactions
         EXPECT_EQ(found.own + found.starts + found.balance, found.by_system);
     }
     EXPECT_EQ(evaluations_of(*scheme.make(), viscous()).of_step,
-              std::vector<std::size_t>(n_steps, scheme.of_viscous_step));
+              std::vector<std::size_t>(n_counted, scheme.of_viscous_step));
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, ExplicitScheme, testing::ValuesIn(explicit_schemes()),
@@ -238,7 +238,7 @@ void PrintTo(const NewtonCounts& scheme, std::ostream* out) { *out << scheme.nam
 Made alpha(const GeneralizedAlpha::Scheme& scheme) {
     GeneralizedAlpha::Options options;
     options.scheme = scheme;
-    options.dt = dt;
+    options.dt = counted_step;
     return std::make_unique<GeneralizedAlpha>(options);
 }
 
@@ -246,7 +246,7 @@ const NewtonCounts newton_schemes[] = {
     {"Newmark", 1, true, [] { return alpha(GeneralizedAlpha::Scheme::newmark(0.25, 0.5)); }},
     {"ChungHulbert", 1, false, [] { return alpha(GeneralizedAlpha::Scheme::chung_hulbert(0.8)); }},
     {"Hht", 1, false, [] { return alpha(GeneralizedAlpha::Scheme::hht(0.1)); }},
-    {"Bathe", 2, true, [] { return std::make_unique<Bathe>(Bathe::Options{.dt = dt}); }},
+    {"Bathe", 2, true, [] { return std::make_unique<Bathe>(Bathe::Options{.dt = counted_step}); }},
 };
 
 class NewtonScheme : public testing::TestWithParam<NewtonCounts> {};
@@ -254,13 +254,13 @@ class NewtonScheme : public testing::TestWithParam<NewtonCounts> {};
 TEST_P(NewtonScheme, AStep_EvaluatesItsNewtonIterationsAndOnceMoreToSeeThatTheyAreDone) {
     const NewtonCounts& scheme = GetParam();
     const Evaluations found = evaluations_of(*scheme.make(), with_supports(true));
-    EXPECT_EQ(found.own, found.iterations + n_steps * scheme.stages);
+    EXPECT_EQ(found.own, found.iterations + n_counted * scheme.stages);
     EXPECT_EQ(found.starts, scheme.name == "Bathe" ? 1 : with_scales);
-    EXPECT_EQ(found.balance, scheme.end_is_a_stage ? 0u : n_steps);
+    EXPECT_EQ(found.balance, scheme.end_is_a_stage ? 0u : n_counted);
     EXPECT_EQ(found.own + found.starts + found.balance, found.by_system);
     // what is remembered is evaluated where the step, or sub-step, ends
     const Evaluations remembering = evaluations_of(*scheme.make(), with_memory());
-    EXPECT_EQ(remembering.own, remembering.iterations + 2 * n_steps * scheme.stages);
+    EXPECT_EQ(remembering.own, remembering.iterations + 2 * n_counted * scheme.stages);
     EXPECT_EQ(remembering.balance, 0u);
 }
 
@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, NewtonScheme, testing::ValuesIn(newton_schemes
 
 struct ControlledCounts {
     std::string name;
-    std::size_t dense;  ///< evaluations of its dense output in n_steps
+    std::size_t dense;  ///< evaluations of its dense output in n_counted
     std::function<Made()> make;
 };
 void PrintTo(const ControlledCounts& scheme, std::ostream* out) { *out << scheme.name; }
@@ -287,7 +287,7 @@ const ControlledCounts controlled_schemes[] = {
     {"Bdf", 0, [] { return cvode(Cvode::Method::bdf, Cvode::Iteration::newton); }},
     {"Adams", 0, [] { return cvode(Cvode::Method::adams, Cvode::Iteration::functional); }},
     {"Ida", 0, [] { return std::make_unique<Ida>(Ida::Options{}); }},
-    {"DormandPrince", n_steps, [] { return std::make_unique<Arkode>(Arkode::Options{}); }},
+    {"DormandPrince", n_counted, [] { return std::make_unique<Arkode>(Arkode::Options{}); }},
 };
 
 class ControlledScheme : public testing::TestWithParam<ControlledCounts> {};
@@ -295,11 +295,11 @@ class ControlledScheme : public testing::TestWithParam<ControlledCounts> {};
 TEST_P(ControlledScheme, NoEvaluation_IsLeftOut) {
     for (const bool moving : {false, true}) {
         const Evaluations found = evaluations_of(*GetParam().make(), with_supports(moving));
-        EXPECT_GE(found.own, std::max<std::size_t>(found.iterations, n_steps));
+        EXPECT_GE(found.own, std::max<std::size_t>(found.iterations, n_counted));
         EXPECT_EQ(found.starts, with_scales);
         // at most the start, the middle and the end of every step
-        EXPECT_GE(found.balance, GetParam().dense + (moving ? n_steps : 0u));
-        EXPECT_LE(found.balance, GetParam().dense + (moving ? 2u * n_steps + 1 : 0u));
+        EXPECT_GE(found.balance, GetParam().dense + (moving ? n_counted : 0u));
+        EXPECT_LE(found.balance, GetParam().dense + (moving ? 2u * n_counted + 1 : 0u));
         EXPECT_EQ(found.own + found.starts + found.balance, found.by_system);
     }
 }
@@ -312,11 +312,11 @@ TEST_P(ControlledScheme, Reactions_AskedForOnceOrInEveryStep_AreTheSame) {
             const Made integrator = GetParam().make();
             State state = system.initial_state();
             integrator->start(system, state, StartReason::fresh);
-            for (int step = 0; step < n_steps; ++step) {
+            for (int step = 0; step < n_counted; ++step) {
                 integrator->advance(system, state, 1);
-                if (every || step + 1 == n_steps) found.push_back(integrator->reactions(system, state)[0]);
+                if (every || step + 1 == n_counted) found.push_back(integrator->reactions(system, state)[0]);
             }
-            EXPECT_LE(integrator->work().balance, GetParam().dense + (moving ? 2u : 1u) * n_steps + 1);
+            EXPECT_LE(integrator->work().balance, GetParam().dense + (moving ? 2u : 1u) * n_counted + 1);
         }
         EXPECT_EQ(found.front(), found.back());
         EXPECT_NE(found.front(), 0);
@@ -331,10 +331,10 @@ TEST(EvaluationCounts, Multirate_AreThoseOfTheSlowStages) {
     for (std::size_t k = 0; k < multirate_tables().size(); ++k) {
         Mri::Options options;
         options.table = multirate_tables()[k].name;
-        options.dt = dt;
+        options.dt = counted_step;
         Mri mri(options);
         const Evaluations found = evaluations_of(mri, with_supports(false));
-        EXPECT_EQ(found.of_step, std::vector<std::size_t>(n_steps, stages[k])) << options.table;
+        EXPECT_EQ(found.of_step, std::vector<std::size_t>(n_counted, stages[k])) << options.table;
         EXPECT_EQ(found.balance, 0u) << options.table;
         EXPECT_EQ(found.own + found.starts, found.by_system) << options.table;
     }

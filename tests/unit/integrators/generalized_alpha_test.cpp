@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
-using Scheme = GeneralizedAlpha::Scheme;
+using AlphaScheme = GeneralizedAlpha::Scheme;
 
 /// One mass on one spring, and its idle neighbour of the other direction.
 test::Oscillator one_mass(double omega) {
@@ -25,7 +25,7 @@ test::Oscillator one_mass(double omega) {
     return test::Oscillator(model);
 }
 
-GeneralizedAlpha::Options with(const Scheme& scheme, double dt) {
+GeneralizedAlpha::Options alpha_with(const AlphaScheme& scheme, double dt) {
     GeneralizedAlpha::Options options;
     options.scheme = scheme;
     options.dt = dt;
@@ -38,7 +38,7 @@ TEST(GeneralizedAlpha, ChungHulbert_SpectralRadiusAtInfinity_IsRhoInf) {
     for (const double rho : {0.3, 0.5, 0.8, 1.0}) {
         constexpr double dt = 1, omega = 1e6;
         const test::Oscillator system = one_mass(omega);
-        GeneralizedAlpha integrator(with(Scheme::chung_hulbert(rho), dt));
+        GeneralizedAlpha integrator(alpha_with(AlphaScheme::chung_hulbert(rho), dt));
         State state = system.initial_state();
         integrator.start(system, state, StartReason::fresh);
         const auto norm = [&] { return std::hypot(state.u[0], dt * state.v[0]); };
@@ -55,7 +55,7 @@ TEST(GeneralizedAlpha, ChungHulbert_SpectralRadiusAtInfinity_IsRhoInf) {
 
 TEST(GeneralizedAlpha, MeanAcceleration_LinearUndamped_KeepsTheEnergy) {
     const test::Oscillator system = one_mass(3);
-    GeneralizedAlpha integrator(with(Scheme::newmark(0.25, 0.5), 0.5));
+    GeneralizedAlpha integrator(alpha_with(AlphaScheme::newmark(0.25, 0.5), 0.5));
     State state = system.initial_state();
     integrator.start(system, state, StartReason::fresh);
     const auto energy = [&] { return integrator.kinetic_energy(system, state) + system.stored_energies(state).sum(); };
@@ -68,14 +68,14 @@ TEST(GeneralizedAlpha, MeanAcceleration_LinearUndamped_KeepsTheEnergy) {
 
 TEST(GeneralizedAlpha, LinearProblemWithEqualSteps_FactorisesOnce) {
     const test::Oscillator system = one_mass(3);
-    GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.125));
+    GeneralizedAlpha integrator(alpha_with(AlphaScheme::chung_hulbert(0.8), 0.125));
     State state = system.initial_state();
     integrator.start(system, state, StartReason::fresh);
     for (int step = 0; step < 16; ++step) integrator.advance(system, state, state.t + 0.125);
     EXPECT_EQ(integrator.counts().factorisations, 1u);
     // an interval that no number of such steps fills without round-off
     const double t_stop = state.t + 100;
-    GeneralizedAlpha uneven(with(Scheme::chung_hulbert(0.8), 0.1));
+    GeneralizedAlpha uneven(alpha_with(AlphaScheme::chung_hulbert(0.8), 0.1));
     uneven.start(system, state, StartReason::fresh);
     while (state.t < t_stop) uneven.advance(system, state, t_stop);
     EXPECT_EQ(uneven.counts().factorisations, 1u);
@@ -84,7 +84,7 @@ TEST(GeneralizedAlpha, LinearProblemWithEqualSteps_FactorisesOnce) {
 TEST(GeneralizedAlpha, OneForceThatFails_WhereverInTheStep_ShortensIt) {
     for (int n = 0; n < 4; ++n) {
         test::Oscillator system = one_mass(3);
-        GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.125));
+        GeneralizedAlpha integrator(alpha_with(AlphaScheme::chung_hulbert(0.8), 0.125));
         State state = system.initial_state();
         integrator.start(system, state, StartReason::fresh);
         const std::size_t before = integrator.counts().evaluations;
@@ -101,7 +101,7 @@ TEST(GeneralizedAlpha, ForceThatIsNoNumber_FailsTheStep) {
     test::OscillatorModel model = one_mass(3).model();
     model.load = [](double t, bool) { return test::Vector{{t > 0.5 ? std::nan("") : 0.0, 0}}; };
     const test::Oscillator system(model);
-    GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.125));
+    GeneralizedAlpha integrator(alpha_with(AlphaScheme::chung_hulbert(0.8), 0.125));
     State state = system.initial_state();
     integrator.start(system, state, StartReason::fresh);
     EXPECT_THROW(
@@ -113,14 +113,14 @@ TEST(GeneralizedAlpha, ForceThatIsNoNumber_FailsTheStep) {
 }
 
 TEST(GeneralizedAlpha, AdaptiveStepsOfOrderOne_AreRefused) {
-    GeneralizedAlpha::Options options = with(Scheme::newmark(0.3025, 0.6), 0);
+    GeneralizedAlpha::Options options = alpha_with(AlphaScheme::newmark(0.3025, 0.6), 0);
     options.rtol = 1e-4;
     EXPECT_THROW(GeneralizedAlpha{options}, InputError);
 }
 
 TEST(GeneralizedAlpha, Schemes_HaveThePublishedNumbers) {
     // Chung and Hulbert (1993), (25): rho_inf = 1 is the undamped member, 0 annihilates
-    const Scheme undamped = Scheme::chung_hulbert(1), annihilating = Scheme::chung_hulbert(0);
+    const AlphaScheme undamped = AlphaScheme::chung_hulbert(1), annihilating = AlphaScheme::chung_hulbert(0);
     EXPECT_DOUBLE_EQ(undamped.alpha_m, 0.5);
     EXPECT_DOUBLE_EQ(undamped.alpha_f, 0.5);
     EXPECT_DOUBLE_EQ(undamped.beta, 0.25);
@@ -130,8 +130,8 @@ TEST(GeneralizedAlpha, Schemes_HaveThePublishedNumbers) {
     EXPECT_DOUBLE_EQ(annihilating.beta, 1);
     EXPECT_DOUBLE_EQ(annihilating.gamma, 1.5);
     // Hilber, Hughes and Taylor (1977): beta = (1 - alpha)^2/4, gamma = 1/2 - alpha, their alpha = -0.3
-    EXPECT_DOUBLE_EQ(Scheme::hht(0.3).beta, 0.4225);
-    EXPECT_DOUBLE_EQ(Scheme::hht(0.3).gamma, 0.8);
+    EXPECT_DOUBLE_EQ(AlphaScheme::hht(0.3).beta, 0.4225);
+    EXPECT_DOUBLE_EQ(AlphaScheme::hht(0.3).gamma, 0.8);
 }
 
 TEST(GeneralizedAlpha, Options_AllProblemsAtOnce) {
@@ -159,7 +159,7 @@ TEST(GeneralizedAlpha, SystemWithoutTangent_IsRefused) {
     test::OscillatorModel model = test::two_nodes();
     model.has_tangent = false;
     const test::Oscillator system(model);
-    GeneralizedAlpha integrator(with(Scheme::chung_hulbert(0.8), 0.1));
+    GeneralizedAlpha integrator(alpha_with(AlphaScheme::chung_hulbert(0.8), 0.1));
     State state = system.initial_state();
     EXPECT_THROW(integrator.start(system, state, StartReason::fresh), InputError);
 }

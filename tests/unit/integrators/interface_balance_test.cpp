@@ -16,7 +16,7 @@
 namespace gneiss {
 namespace {
 
-constexpr double mass = 2, gap = 1, speed = 3;  // kg, m, m/s
+constexpr double moving_mass = 2, gap = 1, speed = 3;  // kg, m, m/s
 
 /// One node, free to move along x between stops at -gap and gap: springs that press alone, and store as contact does.
 class BetweenStops final : public SemiDiscrete {
@@ -61,7 +61,9 @@ public:
     void internal_weights(std::span<double>) const override {}
     double smallest_length() const override { return gap; }
     const Tangent* tangent() const override { return &tangent_; }
-    FrequencyBound frequency_bound(const State&) const override { return {.omega = std::sqrt(stiffness_ / mass)}; }
+    FrequencyBound frequency_bound(const State&) const override {
+        return {.omega = std::sqrt(stiffness_ / moving_mass)};
+    }
     void add_path_energies(const State& from, State& to) const override { to.path = from.path; }
     std::span<const std::unique_ptr<Event>> events() const override { return {}; }
 
@@ -75,8 +77,8 @@ private:
         void assemble(const State&, const Trial& trial, const Factors& factors,
                       std::span<double> values) const override {
             const double k = pressed(trial.u[0]) != 0 ? system_.stiffness_ : 0;
-            values[0] = factors.mass * mass + factors.stiffness * k;
-            values[1] = factors.mass * mass;
+            values[0] = factors.mass * moving_mass + factors.stiffness * k;
+            values[1] = factors.mass * moving_mass;
         }
         void assemble_diagonal(const State& accepted, const Trial& trial, const Factors& factors,
                                std::span<double> diagonal) const override {
@@ -90,7 +92,7 @@ private:
     static double pressed(double x) { return x > gap ? x - gap : std::min(0.0, x + gap); }
 
     double stiffness_;
-    std::vector<double> mass_{mass, mass};
+    std::vector<double> mass_{moving_mass, moving_mass};
     Damping damping_;
     Diagonal tangent_;
 };
@@ -100,7 +102,7 @@ struct Choice {
     std::function<std::unique_ptr<Integrator>(double dt, double interface_tolerance)> make;
 };
 
-auto alpha(const GeneralizedAlpha::Scheme& scheme) {
+auto alpha_scheme(const GeneralizedAlpha::Scheme& scheme) {
     return [scheme](double dt, double interface_tolerance) -> std::unique_ptr<Integrator> {
         GeneralizedAlpha::Options options;
         options.scheme = scheme;
@@ -118,20 +120,20 @@ auto bathe(double rho_inf) {
 }
 
 class Kinks : public testing::TestWithParam<Choice> {};
-INSTANTIATE_TEST_SUITE_P(Schemes, Kinks,
-                         testing::Values(Choice{"GeneralizedAlpha08",
-                                                alpha(GeneralizedAlpha::Scheme::chung_hulbert(0.8))},
-                                         Choice{"GeneralizedAlpha1", alpha(GeneralizedAlpha::Scheme::chung_hulbert(1))},
-                                         Choice{"GeneralizedAlpha0", alpha(GeneralizedAlpha::Scheme::chung_hulbert(0))},
-                                         Choice{"Newmark", alpha(GeneralizedAlpha::Scheme::newmark(0.25, 0.5))},
-                                         Choice{"Hht", alpha(GeneralizedAlpha::Scheme::hht(0.1))},
-                                         Choice{"Bathe0", bathe(0)}, Choice{"Bathe08", bathe(0.8)}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, Kinks,
+    testing::Values(Choice{"GeneralizedAlpha08", alpha_scheme(GeneralizedAlpha::Scheme::chung_hulbert(0.8))},
+                    Choice{"GeneralizedAlpha1", alpha_scheme(GeneralizedAlpha::Scheme::chung_hulbert(1))},
+                    Choice{"GeneralizedAlpha0", alpha_scheme(GeneralizedAlpha::Scheme::chung_hulbert(0))},
+                    Choice{"Newmark", alpha_scheme(GeneralizedAlpha::Scheme::newmark(0.25, 0.5))},
+                    Choice{"Hht", alpha_scheme(GeneralizedAlpha::Scheme::hht(0.1))}, Choice{"Bathe0", bathe(0)},
+                    Choice{"Bathe08", bathe(0.8)}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(Kinks, MassBetweenStiffStops_KeepsItsEnergy) {
     // the spring of a stop turns by 20 rad in a step: 30 steps from stop to stop, 40 bounces
     constexpr double dt = gap / speed / 15, omega = 20 / dt, duration = 80 * gap / speed;
-    const BetweenStops system(mass * omega * omega);
+    const BetweenStops system(moving_mass * omega * omega);
     const auto integrator = GetParam().make(dt, scheme_defaults::interface_tolerance);
     State state = system.initial_state();
     integrator->start(system, state, StartReason::fresh);
@@ -158,7 +160,7 @@ TEST_P(Kinks, MassBetweenStiffStops_KeepsItsEnergy) {
 
 TEST_P(Kinks, AnyStepWillDo_NoneIsTakenAgain) {
     constexpr double dt = gap / speed / 15, omega = 20 / dt;
-    const BetweenStops system(mass * omega * omega);
+    const BetweenStops system(moving_mass * omega * omega);
     const auto integrator = GetParam().make(dt, 1);
     State state = system.initial_state();
     integrator->start(system, state, StartReason::fresh);

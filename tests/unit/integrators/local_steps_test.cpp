@@ -21,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int many = LocalSteps::most_levels;
+constexpr int most_levels_allowed = LocalSteps::most_levels;
 
 /// Waves in 24 columns of cells that grow from 0.05 to 0.8 m.
 test::Solid graded_solid(bool compt, double amplitude = 1, int rows = 0) {
@@ -33,7 +33,7 @@ test::Solid graded_solid(bool compt, double amplitude = 1, int rows = 0) {
     return test::make_solid(test::graded(compt, {24, rows}, 0.05, 1.128, 0.8 * rows), what);
 }
 
-State run(const SemiDiscrete& system, Integrator& integrator, double t_end) {
+State march_to(const SemiDiscrete& system, Integrator& integrator, double t_end) {
     State state = system.initial_state();
     March march;
     march.t_end = t_end;
@@ -41,7 +41,7 @@ State run(const SemiDiscrete& system, Integrator& integrator, double t_end) {
     return state;
 }
 
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return std::sqrt(sum);
@@ -55,13 +55,14 @@ TEST(LocalSteps, HalvedSteps_ConvergeWithOrderTwo) {
         tight.table = "fehlberg_13_7_8";
         tight.rtol = 1e-11;
         Arkode reference(tight);
-        const State exact = run(*solid.system, reference, t_end);
+        const State exact = march_to(*solid.system, reference, t_end);
         double before = 0;
         for (const double dt : {8e-6, 4e-6, 2e-6}) {
-            CentralDifference local({.dt = dt}, many);
-            const State end = run(*solid.system, local, t_end);
+            CentralDifference local({.dt = dt}, most_levels_allowed);
+            const State end = march_to(*solid.system, local, t_end);
             const double omega = 1 / (0.5 * t_end);  // weighs velocities like displacements
-            const double now = std::hypot(distance(end.u, exact.u), distance(end.v, exact.v) / omega);
+            const double now =
+                std::hypot(largest_difference(end.u, exact.u), largest_difference(end.v, exact.v) / omega);
             if (before > 0) {
                 EXPECT_NEAR(std::log2(before / now), 2, 0.15) << "dt = " << dt << ", compt " << compt;
             }
@@ -73,7 +74,7 @@ TEST(LocalSteps, HalvedSteps_ConvergeWithOrderTwo) {
 TEST(LocalSteps, NoiseAtTheLimit_DoesNotGrow) {
     for (const bool compt : {false, true}) {
         const test::Solid solid = graded_solid(compt);
-        CentralDifference local({.safety = 1}, many);
+        CentralDifference local({.safety = 1}, most_levels_allowed);
         State state = solid.system->initial_state();
         std::mt19937 random(5);
         std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);  // m/s: the solid stays linear
@@ -101,8 +102,8 @@ TEST(LocalSteps, FreeSolid_KeepsItsMomentum) {
         for (std::size_t i = component; i < state.v.size(); i += 2) sum += solid.system->lumped_mass()[i] * state.v[i];
         return sum;
     };
-    CentralDifference local({}, many);
-    const State start = solid.system->initial_state(), end = run(*solid.system, local, 5e-3);
+    CentralDifference local({}, most_levels_allowed);
+    const State start = solid.system->initial_state(), end = march_to(*solid.system, local, 5e-3);
     double mass = 0;
     for (std::size_t i = 0; i < start.v.size(); i += 2) mass += solid.system->lumped_mass()[i];
     for (const std::size_t component : {0u, 1u})
@@ -111,7 +112,7 @@ TEST(LocalSteps, FreeSolid_KeepsItsMomentum) {
 
 TEST(LocalSteps, UnseenSteps_HaveTheBitsOfSeenOnes) {
     const test::Solid solid = graded_solid(false);
-    CentralDifference one({}, many), other({}, many);
+    CentralDifference one({}, most_levels_allowed), other({}, most_levels_allowed);
     State seen = solid.system->initial_state(), unseen = seen;
     one.start(*solid.system, seen, StartReason::fresh);
     other.start(*solid.system, unseen, StartReason::fresh);
@@ -123,12 +124,12 @@ TEST(LocalSteps, UnseenSteps_HaveTheBitsOfSeenOnes) {
 
 TEST(LocalSteps, ResumedFromACheckpoint_HasTheBitsOfARunThatGoesOn) {
     const test::Solid solid = graded_solid(true);
-    CentralDifference whole({}, many);
+    CentralDifference whole({}, most_levels_allowed);
     State state = solid.system->initial_state();
     whole.start(*solid.system, state, StartReason::fresh);
     for (int step = 0; step < 20; ++step) whole.advance(*solid.system, state, 1);
     State resumed_state = state;
-    CentralDifference resumed({}, many);
+    CentralDifference resumed({}, most_levels_allowed);
     resumed.load(*solid.system, resumed_state, whole.save());
     for (int step = 0; step < 80; ++step) {  // over a look at the bound
         whole.advance(*solid.system, state, 1);
@@ -142,8 +143,8 @@ TEST(LocalSteps, Threads_GiveTheSameBits) {
     for (const int threads : {1, 2, 3}) {
         omp_set_num_threads(threads);
         const test::Solid solid = graded_solid(false, 1, 20);  // several chunks of a level
-        CentralDifference local({}, many);
-        ends.push_back(run(*solid.system, local, 1e-3));
+        CentralDifference local({}, most_levels_allowed);
+        ends.push_back(march_to(*solid.system, local, 1e-3));
     }
     omp_set_num_threads(1);
     EXPECT_EQ(ends[1], ends[0]);
@@ -152,11 +153,11 @@ TEST(LocalSteps, Threads_GiveTheSameBits) {
 
 TEST(LocalSteps, Work_IsThatOfEachLevelsOwnSteps) {
     const test::Solid solid = graded_solid(true);
-    const auto levels = solid.system->levels(many);
+    const auto levels = solid.system->levels(most_levels_allowed);
     ASSERT_NE(levels, nullptr);
     std::size_t in_a_step = 0;
     for (int k = 1; k <= levels->finest(); ++k) in_a_step += levels->n_elements(k) << k;
-    CentralDifference local({}, many), plain({});
+    CentralDifference local({}, most_levels_allowed), plain({});
     State state = solid.system->initial_state();
     local.start(*solid.system, state, StartReason::fresh);
     for (int step = 0; step < 10; ++step) local.advance(*solid.system, state, 1);
@@ -169,9 +170,9 @@ TEST(LocalSteps, Work_IsThatOfEachLevelsOwnSteps) {
 
 TEST(LocalSteps, ElementsOfOneSize_HaveTheBitsOfOneStepForAll) {
     const test::Solid solid = test::make_solid(test::rectangle(true, 1, 1, {4, 4}), {});
-    EXPECT_EQ(solid.system->levels(many), nullptr);
-    CentralDifference local({}, many), plain({});
-    EXPECT_EQ(run(*solid.system, local, 1e-3), run(*solid.system, plain, 1e-3));
+    EXPECT_EQ(solid.system->levels(most_levels_allowed), nullptr);
+    CentralDifference local({}, most_levels_allowed), plain({});
+    EXPECT_EQ(march_to(*solid.system, local, 1e-3), march_to(*solid.system, plain, 1e-3));
     EXPECT_EQ(local.work().elements, 0u);
 }
 
@@ -184,8 +185,8 @@ TEST(LocalSteps, Options_AreRefusedWithTheirReason) {
         }
         return "";
     };
-    EXPECT_EQ(refusal({}, many), "");
-    for (const int levels : {0, -1, many + 1})
+    EXPECT_EQ(refusal({}, most_levels_allowed), "");
+    for (const int levels : {0, -1, most_levels_allowed + 1})
         EXPECT_THAT(refusal({}, levels), HasSubstr("integrator.levels: given")) << levels;
     EXPECT_THAT(refusal({.lanczos = true}, 2), HasSubstr("integrator.bound: "));
     EXPECT_EQ(refusal({.lanczos = true}, 1), "");

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Mri::Options with(const char* table, double dt, double rtol) {
+Mri::Options mri_with(const char* table, double dt, double rtol) {
     Mri::Options options;
     options.table = table;
     options.dt = dt;
@@ -43,7 +43,7 @@ TEST(Mri, StiffInteractions_StepsFarAboveTheirLimit_AreAccurateWhereASingleRateM
     const State exact = runge_kutta(system, test::oscillator_end, 2e-5);
     constexpr double dt = 0.025;  // 7 or more in omega dt
     for (const MultirateTable& table : multirate_tables()) {
-        Mri mri(with(table.name, dt, 1e-8));
+        Mri mri(mri_with(table.name, dt, 1e-8));
         EXPECT_LT(test::distance(test::march_oscillator(system, mri), exact), 2e-3) << table.name;
     }
     Arkode::Options single;
@@ -59,7 +59,7 @@ TEST(Mri, StiffInteractions_StepsThatResolveThem_ConvergeWithTheOrder) {
     const State exact = runge_kutta(system, test::oscillator_end, 2e-5);
     for (const MultirateTable& table : multirate_tables()) {
         const auto error = [&](double dt) {
-            Mri mri(with(table.name, dt, 1e-12));
+            Mri mri(mri_with(table.name, dt, 1e-12));
             return test::distance(test::march_oscillator(system, mri), exact);
         };
         // order 4 falls faster here, and sooner into what the fast part's tolerance leaves
@@ -76,7 +76,7 @@ TEST(Mri, StiffInteractions_StepsThatResolveThem_ConvergeWithTheOrder) {
 TEST(Mri, Limit_OfTheSlowPartAlone_IsTheTables) {
     for (const MultirateTable& table : multirate_tables()) {
         const double limit =
-            test::stability_limit([&](double dt) { return std::make_unique<Mri>(with(table.name, dt, 1e-10)); }, 6);
+            test::stability_limit([&](double dt) { return std::make_unique<Mri>(mri_with(table.name, dt, 1e-10)); }, 6);
         EXPECT_NEAR(limit, table.limit, 0.01) << table.name;
     }
 }
@@ -87,7 +87,7 @@ TEST(Mri, StepAboveTheLimitOfTheSlowPart_IsWarnedOfOnce) {
     const test::Oscillator system(model);
     for (const MultirateTable& table : multirate_tables())
         for (const double part : {0.99, 1.01}) {
-            Mri mri(with(table.name, part * table.limit / 6, 1e-6));
+            Mri mri(mri_with(table.name, part * table.limit / 6, 1e-6));
             State state = system.initial_state();
             mri.start(system, state, StartReason::fresh);
             const std::string first = mri.advance(system, state, 10).warning;
@@ -101,7 +101,7 @@ TEST(Mri, StiffInteractions_LoadsAndDamping_BalanceAgainstTheEnergy) {
     model.damping.mass_proportional = 0.4;
     const test::Oscillator system(model);
     for (const MultirateTable& table : multirate_tables()) {
-        Mri mri(with(table.name, 0.0125, 1e-8));
+        Mri mri(mri_with(table.name, 0.0125, 1e-8));
         State state = system.initial_state();
         const auto energy = [&] { return mri.kinetic_energy(system, state) + system.stored_energies(state).sum(); };
         const double before = energy();
@@ -121,7 +121,7 @@ TEST(Mri, WithinTheFirstStepAfterAStart_StatesAreAsAccurateAsInLaterOnes) {
     model.load = test::smooth_load;
     const test::Oscillator system(model);
     for (const MultirateTable& table : multirate_tables()) {
-        Mri mri(with(table.name, 0.025, 1e-10));
+        Mri mri(mri_with(table.name, 0.025, 1e-10));
         State state = system.initial_state(), at;
         std::vector<double> reactions;
         mri.start(system, state, StartReason::fresh);
@@ -142,7 +142,7 @@ TEST(Mri, WithinTheFirstStepAfterAStart_StatesAreAsAccurateAsInLaterOnes) {
 
 TEST(Mri, ForceEvaluations_AreThoseOfTheSlowPart) {
     const test::Oscillator system(stiff_contact());
-    Mri mri(with("mri_gark_erk33a", 0.025, 1e-8));
+    Mri mri(mri_with("mri_gark_erk33a", 0.025, 1e-8));
     State state = system.initial_state();
     mri.start(system, state, StartReason::fresh);
     mri.advance(system, state, 1);
@@ -153,9 +153,9 @@ TEST(Mri, ForceEvaluations_AreThoseOfTheSlowPart) {
 }
 
 TEST(Mri, Options_AreRefusedByName) {
-    for (const double dt : {0.0, -1.0, std::nan("")}) EXPECT_THROW(Mri(with("mis_kw3", dt, 1e-6)), InputError);
+    for (const double dt : {0.0, -1.0, std::nan("")}) EXPECT_THROW(Mri(mri_with("mis_kw3", dt, 1e-6)), InputError);
     try {
-        Mri mri(with("mis", 0.1, 1e-6));
+        Mri mri(mri_with("mis", 0.1, 1e-6));
         FAIL();
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("given `mis`, must be one of mis_kw3, mri_gark_erk33a, mri_gark_erk45a"));

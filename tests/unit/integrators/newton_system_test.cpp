@@ -25,7 +25,7 @@ using test::Vector;
 /// About one over the middle of the natural frequencies: M, gamma D and gamma^2 K are then all of a size, and so are
 /// the three parts of the right side.
 constexpr double gamma_of_solids = 2e-4;  // s; rock of 1e9 Pa and 1000 kg/m3 in edges of 0.25 m
-constexpr double modulus = 1e9;           // Pa
+constexpr double young_modulus = 1e9;     // Pa
 
 struct Case {
     std::string name;
@@ -59,13 +59,13 @@ test::SolidDescription of(Form form, StressMap map, bool viscous, double mass_da
     MaterialOptions& material = what.materials[0];
     material.form = form;
     material.stress_map = map;
-    if (form == Form::hypo) material.stiffening = {2, 0.05 * modulus, 0.5};
-    if (viscous) material.shear_viscosity = 0.5 * modulus * gamma_of_solids, material.bulk_viscosity = 1e5;
+    if (form == Form::hypo) material.stiffening = {2, 0.05 * young_modulus, 0.5};
+    if (viscous) material.shear_viscosity = 0.5 * young_modulus * gamma_of_solids, material.bulk_viscosity = 1e5;
     return what;
 }
 
 /// All that a solid can have at once: unsymmetric, damped in three ways, with z, partly held, under a follower load.
-test::SolidDescription everything() {
+test::SolidDescription all_at_once() {
     test::SolidDescription what = of(Form::hypo, StressMap::direct, true, 1 / gamma_of_solids);
     what.boundaries = {on("left", BoundaryOptions::Kind::displacement, Formula(0.0), std::nullopt),
                        on("bottom", BoundaryOptions::Kind::velocity, std::nullopt, Formula("0.5*x")),
@@ -73,7 +73,7 @@ test::SolidDescription everything() {
     LoadOptions pressure;
     pressure.kind = LoadOptions::Kind::pressure;
     pressure.on = "top";
-    pressure.value[0] = Formula(0.1 * modulus);
+    pressure.value[0] = Formula(0.1 * young_modulus);
     what.loads = {pressure};
     return what;
 }
@@ -111,7 +111,7 @@ std::vector<Case> cases() {
             {"HypoElasticConstantModuli", constant_moduli()},
             {"HypoElasticViscousFixed", held(of(hypo, direct, true, damping))},
             {"HypoElasticCst", held(of(hypo, conjugate, false, damping)), false},
-            {"Everything", everything()}};
+            {"Everything", all_at_once()}};
 }
 
 /// A system at a state where nothing is zero, far from the accepted one.
@@ -173,11 +173,13 @@ Vector units(const FirstOrderForm& form, double gamma, double stress) {
 }
 
 /// The largest difference over the largest entry.
-double difference(const Vector& a, const Vector& b) { return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff(); }
+double relative_difference(const Vector& a, const Vector& b) {
+    return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
 
 /// Differences by u: round-off of forces over a strain of 1e-5, 2e-11, a few of which add up. The matrix, in which mass
 /// and stiffness are alike, hands them on as they are.
-constexpr double tolerance = 2e-10;
+constexpr double of_dense_solution = 2e-10;
 /// An answer of which a part is missing or has the other sign is off by far more than that.
 constexpr double every_part_counts = 1e-3;
 
@@ -200,7 +202,7 @@ void expect_dense_solution(At& at, double gamma, double stress) {
             const Vector expected = (one - factor * gamma * kept).partialPivLu().solve(right_scale * b);
             for (const bool in_place : {false, true}) {
                 const Vector found = solved(newton, b.cwiseProduct(unit), in_place, context).cwiseQuotient(unit);
-                EXPECT_LE(difference(found, expected), tolerance)
+                EXPECT_LE(relative_difference(found, expected), of_dense_solution)
                     << "gamma " << factor * gamma << ", right side times " << right_scale;
             }
         }
@@ -221,11 +223,11 @@ void expect_dense_solution(At& at, double gamma, double stress) {
                              Part{"df/dz", at.stressed, n, 2 * n, n, n_z}, Part{"G", n_z > 0, 2 * n, n, n_z, n}}) {
         Matrix without = kept;
         without.block(part.row, part.column, part.n_rows, part.n_columns).setZero();
-        const double change = difference((one - gamma * without).partialPivLu().solve(b), expected);
+        const double change = relative_difference((one - gamma * without).partialPivLu().solve(b), expected);
         if (part.there)
             EXPECT_GT(change, every_part_counts) << part.name;
         else
-            EXPECT_LE(change, tolerance) << part.name;
+            EXPECT_LE(change, of_dense_solution) << part.name;
     }
 }
 
@@ -247,14 +249,14 @@ TEST_P(NewtonSystemOf, FarFromRest_SolvesTheDenseSystem) {
     }
     // stresses that are not those of u: some compress, and stiffen
     for (std::size_t k = 0; k < state.z.size(); ++k)
-        state.z[k] = 0.03 * modulus * std::sin(1.7 * static_cast<double>(k) + 0.3);
+        state.z[k] = 0.03 * young_modulus * std::sin(1.7 * static_cast<double>(k) + 0.3);
     at.y.resize(at.form.size());
     at.form.pack(state, at.y);
     at.u_step = 1e-5 * system.smallest_length();
-    at.z_step = 1e-3 * modulus;
+    at.z_step = 1e-3 * young_modulus;
     at.damped = GetParam().damped();
     at.stressed = GetParam().stressed();
-    expect_dense_solution(at, gamma_of_solids, modulus);
+    expect_dense_solution(at, gamma_of_solids, young_modulus);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, NewtonSystemOf, testing::ValuesIn(cases()),

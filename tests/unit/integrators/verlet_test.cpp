@@ -5,41 +5,40 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/errors.hpp"
 #include "support/amplification.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/oscillator_problems.hpp"
 
 namespace gneiss {
 namespace {
 
+using test::eps;
 using testing::HasSubstr;
-using Form = Verlet::Form;
+using VerletForm = Verlet::Form;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-struct Kind {
+struct VerletKind {
     const VerletComposition& composition;
-    Form form;
+    VerletForm form;
 
     std::unique_ptr<Verlet> make(const StableStep::Options& step) const {
         return std::make_unique<Verlet>(Verlet::Options{step, form, composition.name});
     }
 };
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.composition.name; }
+void PrintTo(const VerletKind& kind, std::ostream* out) { *out << kind.composition.name; }
 
-std::vector<Kind> kinds() {
-    std::vector<Kind> all;
+std::vector<VerletKind> kinds() {
+    std::vector<VerletKind> all;
     for (const VerletComposition& composition : verlet_compositions())
-        for (const Form form : {Form::velocity, Form::position}) all.push_back({composition, form});
+        for (const VerletForm form : {VerletForm::velocity, VerletForm::position}) all.push_back({composition, form});
     return all;
 }
 
-class EveryVerlet : public testing::TestWithParam<Kind> {};
+class EveryVerlet : public testing::TestWithParam<VerletKind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryVerlet, testing::ValuesIn(kinds()), [](const auto& instance) {
-    return std::string(instance.param.form == Form::velocity ? "Velocity_" : "Position_") +
+    return std::string(instance.param.form == VerletForm::velocity ? "Velocity_" : "Position_") +
            instance.param.composition.name;
 });
 
@@ -101,7 +100,7 @@ TEST_P(EveryVerlet, ManyPeriodsUndamped_EnergyErrorDoesNotGrow) {
 
 TEST(Verlet, SingleInVelocityForm_LinearUndamped_KeepsItsEnergyToRoundOff) {
     const test::Oscillator system(test::two_nodes());
-    Verlet integrator({{.dt = 0.2}, Form::velocity, "single"});
+    Verlet integrator({{.dt = 0.2}, VerletForm::velocity, "single"});
     State state = system.initial_state();
     integrator.start(system, state, StartReason::fresh);
     const auto energy = [&] { return integrator.kinetic_energy(system, state) + system.stored_energies(state).sum(); };
@@ -114,7 +113,7 @@ TEST(Verlet, FiveSubSteps_WithAsManyForces_AreMoreAccurateThanThree) {
     const test::Oscillator system(test::two_nodes());
     const State exact = runge_kutta(system, test::oscillator_end, test::oscillator_reference_step);
     const auto error = [&](const char* composition, double sub_steps) {
-        Verlet integrator({{.safety = 1, .dt = 0.01 * sub_steps}, Form::velocity, composition});
+        Verlet integrator({{.safety = 1, .dt = 0.01 * sub_steps}, VerletForm::velocity, composition});
         return test::distance(test::march_oscillator(system, integrator), exact);
     };
     const double three = error("yoshida_3", 3);
@@ -128,7 +127,7 @@ TEST(Verlet, StepsBack_WithWhatCannotBeUndone_AreRefused) {
     const test::Oscillator system(model);
     State state = system.initial_state();
     for (const VerletComposition& composition : verlet_compositions()) {
-        Verlet integrator({{}, Form::velocity, composition.name});
+        Verlet integrator({{}, VerletForm::velocity, composition.name});
         if (!composition.goes_back()) {
             EXPECT_NO_THROW(integrator.start(system, state, StartReason::fresh));
             continue;
@@ -143,9 +142,9 @@ TEST(Verlet, StepsBack_WithWhatCannotBeUndone_AreRefused) {
 }
 
 TEST(Verlet, Options_OutOfRange_AreReported) {
-    EXPECT_THROW(Verlet({{.safety = 0}, Form::velocity, "single"}), InputError);
+    EXPECT_THROW(Verlet({{.safety = 0}, VerletForm::velocity, "single"}), InputError);
     try {
-        Verlet integrator({{}, Form::velocity, "suzuki"});
+        Verlet integrator({{}, VerletForm::velocity, "suzuki"});
         FAIL();
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("given `suzuki`, must be one of single, yoshida_3, suzuki_5, mclachlan_5"));

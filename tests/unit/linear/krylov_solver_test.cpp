@@ -16,7 +16,7 @@ using testing::HasSubstr;
 constexpr double tolerance = 1e-10;
 constexpr double slack = 2;  ///< the residual has round-off of its own
 
-struct Choice {
+struct KrylovChoice {
     const char *name, *solver, *preconditioner;
 };
 
@@ -27,7 +27,7 @@ LinearSolverOptions choice(const char* solver, const char* preconditioner) {
     return options;
 }
 
-class KrylovOf : public testing::TestWithParam<Choice> {
+class KrylovOf : public testing::TestWithParam<KrylovChoice> {
 protected:
     LinearSolverOptions options = choice(GetParam().solver, GetParam().preconditioner);
     std::unique_ptr<LinearSolver> solver = make_linear_solver(options, true);
@@ -143,10 +143,10 @@ TEST_P(KrylovOf, FreeBodyUnderALoadOutOfBalance_IsNotSolved) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Krylov, KrylovOf,
-                         testing::Values(Choice{"PcgDiagonal", "pcg", "diagonal"},
-                                         Choice{"PcgIncomplete", "pcg", "incomplete"},
-                                         Choice{"GmresDiagonal", "gmres", "diagonal"},
-                                         Choice{"GmresIncomplete", "gmres", "incomplete"}),
+                         testing::Values(KrylovChoice{"PcgDiagonal", "pcg", "diagonal"},
+                                         KrylovChoice{"PcgIncomplete", "pcg", "incomplete"},
+                                         KrylovChoice{"GmresDiagonal", "gmres", "diagonal"},
+                                         KrylovChoice{"GmresIncomplete", "gmres", "incomplete"}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST(Pcg, Indefinite_IsRefusedAndGoesOnAfterwards) {

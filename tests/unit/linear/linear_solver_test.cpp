@@ -5,15 +5,15 @@
 #include <gmock/gmock.h>
 
 #include <functional>
-#include <limits>
 
 #include "sparse_matrices.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 struct Choice {
     const char* name;

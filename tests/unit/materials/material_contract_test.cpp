@@ -3,18 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <limits>
 #include <numbers>
 
 #include "materials/small_strain_stiffness.hpp"
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/laws.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 // Some hundred operations on strains up to 0.3 and moduli up to 2e9 Pa.
 constexpr double round_off = 100 * eps * modulus;
 // Round-off eps M e/h and truncation h^4/30 times a fifth derivative (up to 1e3 M) of a central difference.

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <numbers>
 #include <random>
 
 #include "materials/munjiza_hyperelastic.hpp"
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/laws.hpp"
 #include "support/packs.hpp"
@@ -15,7 +15,8 @@
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double round_off = 100 * eps * modulus;
 
 // ---- VERIFICATION 10

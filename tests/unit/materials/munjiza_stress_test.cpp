@@ -5,19 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "materials/munjiza_hyperelastic.hpp"
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/laws.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double pi = std::numbers::pi;
 // Some hundred operations on strains up to 0.3 and moduli up to 2e9 Pa.
 constexpr double round_off = 100 * eps * modulus;

@@ -3,14 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <limits>
 
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double E = 1e9, nu = 0.3;
 const LameConstants lame = lame_constants(E, nu);
 constexpr double round_off = 100 * eps * E;

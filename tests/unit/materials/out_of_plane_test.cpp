@@ -4,16 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 #include "support/finite_differences.hpp"
 #include "support/laws.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr double E = 1.2e9, nu = 0.3;                                      // Pa, -
 constexpr TransverselyIsotropic bedded{2.0e9, 1.1e9, 0.28, 0.17, 0.45e9};  // a shale, Pa
 constexpr Tensor<double> small{1e-6, -0.4e-6, 0.9e-6, -0.7e-6};            // laws differ from Hooke's by its square

@@ -3,14 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <limits>
 
 #include "support/deformation.hpp"
+#include "support/eps.hpp"
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+
 constexpr ViscousStress viscosity{3.0, 7.0};  // Pa s
 // Some tens of operations on rates near 1/s.
 constexpr double round_off = 200 * eps;

@@ -1,16 +1,16 @@
 #include "model/eigenvalue_bound.hpp"
+#include "support/eps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace gneiss {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 template <int n>
 using Square = Eigen::Matrix<double, n, n>;

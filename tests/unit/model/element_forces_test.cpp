@@ -13,6 +13,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/measure.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/small_solids.hpp"
 #include "unit/model/scalar_reference.hpp"
@@ -20,12 +21,12 @@
 namespace gneiss {
 namespace {
 
+using test::eps;
 using testing::HasSubstr;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double modulus = 3e9, sub_edge = 0.05;
 
-struct Choice {
+struct ForceChoice {
     const char* name;
     bool compt;
     Volumetric volumetric;
@@ -40,7 +41,7 @@ constexpr auto hyper = Form::hyper, hypo = Form::hypo;
 constexpr auto conjugate = StressMap::conjugate, direct = StressMap::direct;
 constexpr auto mean = Volumetric::mean, centre = Volumetric::centre;
 
-const Choice choices[] = {
+const ForceChoice force_choices[] = {
     {"CstHyperConjugate", false, mean, Plane::strain, munjiza, hyper, conjugate},
     {"CstHyperDirect", false, mean, Plane::strain, munjiza, hyper, direct},
     {"CstHypoConjugate", false, mean, Plane::strain, munjiza, hypo, conjugate},
@@ -59,7 +60,7 @@ const Choice choices[] = {
 
 /// Two materials in two regions that interlock; left half of straight composites, right half distorted. Several chunks
 /// in each block, and no block that fills its packs.
-class ElementForcesOf : public testing::TestWithParam<Choice> {
+class ElementForcesOf : public testing::TestWithParam<ForceChoice> {
 protected:
     ElementForcesOf() : mesh_(test::rectangle(GetParam().compt, 3.2, 2.5, {32, 25})) {
         Mesh distorted = mesh_;
@@ -332,7 +333,7 @@ TEST_P(ElementForcesOf, NotANumber_InADisplacement_IsReportedAsInverted) {
     EXPECT_THROW(forces_->force(state_, trial(u, v), f), RecoverableError);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryLawElementAndSampling, ElementForcesOf, testing::ValuesIn(choices),
+INSTANTIATE_TEST_SUITE_P(EveryLawElementAndSampling, ElementForcesOf, testing::ValuesIn(force_choices),
                          [](const auto& choice) { return std::string(choice.param.name); });
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double thickness = 0.5, p_0 = 3e6;
-constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+constexpr double gas_round_off = 64 * std::numeric_limits<double>::epsilon();
 
 /// Nodes of a hole of 2 m x 1 m, far from the origin, in a solid that is not there: walking along it the solid is on
 /// the left, so that it is walked clockwise.
@@ -41,7 +41,9 @@ LumpedOptions burning_gas() {
     return options;
 }
 
-GasCavity make(const Hole& hole, const LumpedOptions& options) { return {options, hole.mesh, hole.edges, thickness}; }
+GasCavity cavity_of(const Hole& hole, const LumpedOptions& options) {
+    return {options, hole.mesh, hole.edges, thickness};
+}
 
 Trial trial(double t, const std::vector<double>& u, std::span<const double> z = {}) { return {t, 0, u, u, z}; }
 
@@ -58,28 +60,29 @@ const std::vector<double> some_displacement{0.1, -0.05, 0.2, 0.03, -0.1, 0.15, 0
 
 TEST(GasCavity, Expansion_IsAdiabatic) {
     const Hole hole;
-    const GasCavity cavity = make(hole, gas());
+    const GasCavity cavity = cavity_of(hole, gas());
     EXPECT_EQ(cavity.n_internal(), 0u);
-    EXPECT_NEAR(cavity.initial_volume(), 2 * thickness, round_off);
+    EXPECT_NEAR(cavity.initial_volume(), 2 * thickness, gas_round_off);
     const double energy_0 = cavity.stored_energy(trial(0, scaled(hole, 1)));
-    EXPECT_NEAR(energy_0, p_0 * 2 * thickness / 0.4, round_off * energy_0);
+    EXPECT_NEAR(energy_0, p_0 * 2 * thickness / 0.4, gas_round_off * energy_0);
     for (const double by : {0.5, 0.9, 1.3, 3.0}) {
         const std::vector<double> u = scaled(hole, by);
         const double ratio = by * by;  // V/V_0
-        EXPECT_NEAR(cavity.volume(trial(0, u)), ratio * 2 * thickness, round_off * ratio);
-        EXPECT_NEAR(cavity.pressure(trial(0, u)), p_0 * std::pow(ratio, -1.4), round_off * p_0 * std::pow(ratio, -1.4));
+        EXPECT_NEAR(cavity.volume(trial(0, u)), ratio * 2 * thickness, gas_round_off * ratio);
+        EXPECT_NEAR(cavity.pressure(trial(0, u)), p_0 * std::pow(ratio, -1.4),
+                    gas_round_off * p_0 * std::pow(ratio, -1.4));
         // p_0 V_0^k (V_0^(1-k) - V^(1-k))/(k - 1): the work of an adiabatic expansion
         const double work = energy_0 * (1 - std::pow(ratio, -0.4));
-        EXPECT_NEAR(energy_0 - cavity.stored_energy(trial(0, u)), work, round_off * energy_0);
+        EXPECT_NEAR(energy_0 - cavity.stored_energy(trial(0, u)), work, gas_round_off * energy_0);
     }
 }
 
 TEST(GasCavity, Force_PushesTheWallsOutwards) {
     const Hole hole;
     std::vector<double> f = hole.at_rest();
-    make(hole, gas()).add_force(trial(0, hole.at_rest()), f);
+    cavity_of(hole, gas()).add_force(trial(0, hole.at_rest()), f);
     const double x = 0.5 * p_0 * thickness, y = p_0 * thickness;  // halves of walls of 1 m and 2 m
-    EXPECT_THAT(f, testing::Pointwise(testing::DoubleNear(round_off * p_0), {-x, -y, x, -y, x, y, -x, y}));
+    EXPECT_THAT(f, testing::Pointwise(testing::DoubleNear(gas_round_off * p_0), {-x, -y, x, -y, x, y, -x, y}));
 }
 
 TEST(GasCavity, Force_IsMinusTheDerivativeOfItsEnergy) {
@@ -88,7 +91,7 @@ TEST(GasCavity, Force_IsMinusTheDerivativeOfItsEnergy) {
     leaking.leak = 3;
     const std::vector<double> z{1.7 * p_0};
     for (const auto& [options, own] : {std::pair(gas(), std::vector<double>{}), {leaking, z}}) {
-        const GasCavity cavity = make(hole, options);
+        const GasCavity cavity = cavity_of(hole, options);
         std::vector<double> u = some_displacement, f = hole.at_rest();
         cavity.add_force(trial(0, u, own), f);
         for (std::size_t i = 0; i < u.size(); ++i) {
@@ -122,7 +125,7 @@ TEST(GasCavity, Tangent_IsTheDerivativeOfTheForce) {
     const Hole hole;
     const std::vector<double> z_0{1.2 * p_0, 7e6}, u_0 = scaled(hole, 1.05);
     for (const bool follows : {false, true}) {
-        const GasCavity cavity = make(hole, burning_gas());
+        const GasCavity cavity = cavity_of(hole, burning_gas());
         const Trial from = trial(0, u_0, z_0);
         std::vector<double> u = some_displacement, z = z_0, f(8);
         const auto force = [&] {
@@ -143,13 +146,13 @@ TEST(GasCavity, Tangent_IsTheDerivativeOfTheForce) {
         force();
         const Eigen::MatrixXd k = tangent(cavity, follows ? &from : nullptr, trial(0.01, u, z));
         EXPECT_LT((k - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
-        EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), round_off * k.cwiseAbs().maxCoeff());
+        EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), gas_round_off * k.cwiseAbs().maxCoeff());
     }
 }
 
 TEST(GasCavity, Bounds_AreAboveItsStiffness) {
     const Hole hole;
-    const GasCavity cavity = make(hole, gas());
+    const GasCavity cavity = cavity_of(hole, gas());
     const Trial at = trial(0, some_displacement);
     const Eigen::MatrixXd k = -tangent(cavity, nullptr, at);
     const std::vector<double> mass{3, 3, 5, 5, 2, 2, 4, 4};
@@ -171,35 +174,35 @@ TEST(GasCavity, LeakAlone_FollowsTheExponential) {
     const Hole hole;
     LumpedOptions options = gas();
     options.leak = 4;
-    const GasCavity cavity = make(hole, options);
+    const GasCavity cavity = cavity_of(hole, options);
     ASSERT_EQ(cavity.n_internal(), 1u);
     std::vector<double> z(1), after(1);
     cavity.initial_internal(z);
     EXPECT_EQ(z[0], p_0);
     // whatever the volume does: p V^kappa falls at kappa times the rate of the mass
     cavity.update_internal(trial(1, scaled(hole, 1), z), trial(1.1, scaled(hole, 2)), after);
-    EXPECT_NEAR(after[0], p_0 * std::exp(-1.4 * 4 * 0.1), round_off * p_0);
+    EXPECT_NEAR(after[0], p_0 * std::exp(-1.4 * 4 * 0.1), gas_round_off * p_0);
 }
 
 TEST(GasCavity, BurningAtConstantVolume_HeatsByWhatHasBurnt) {
     const Hole hole;
     LumpedOptions options = gas();
     options.burn = BurnOptions{.energy = 8e6, .time = 0.03};
-    const GasCavity cavity = make(hole, options);
+    const GasCavity cavity = cavity_of(hole, options);
     ASSERT_EQ(cavity.n_internal(), 2u);
     std::vector<double> z(2), after(2);
     cavity.initial_internal(z);
     const std::vector<double> u = hole.at_rest();
-    EXPECT_NEAR(cavity.stored_energy(trial(0, u, z)), p_0 * 2 * thickness / 0.4 + 8e6, round_off * 1e8);
+    EXPECT_NEAR(cavity.stored_energy(trial(0, u, z)), p_0 * 2 * thickness / 0.4 + 8e6, gas_round_off * 1e8);
     cavity.update_internal(trial(0, u, z), trial(0.02, u), after);
     const double burnt = 8e6 * (1 - std::exp(-0.02 / 0.03));
-    EXPECT_NEAR(cavity.pressure(trial(0.02, u, after)), p_0 + 0.4 * burnt / (2 * thickness), round_off * 1e8);
-    EXPECT_NEAR(cavity.quantities(trial(0.02, u, after)).back().value, 8e6 - burnt, round_off * 1e8);
+    EXPECT_NEAR(cavity.pressure(trial(0.02, u, after)), p_0 + 0.4 * burnt / (2 * thickness), gas_round_off * 1e8);
+    EXPECT_NEAR(cavity.quantities(trial(0.02, u, after)).back().value, 8e6 - burnt, gas_round_off * 1e8);
 }
 
 TEST(GasCavity, Updates_AreOfOrderTwoOfTheRate) {
     const Hole hole;
-    const GasCavity cavity = make(hole, burning_gas());
+    const GasCavity cavity = cavity_of(hole, burning_gas());
     const auto u_at = [&](double t) { return scaled(hole, 1 + 0.3 * std::sin(40 * t)); };
     const double t_end = 0.05;
     const auto by_updates = [&](int n) {
@@ -248,7 +251,7 @@ TEST(GasCavity, Leak_EntersTheLedger) {
     const Hole hole;
     LumpedOptions options = gas();
     options.leak = 2;
-    const GasCavity cavity = make(hole, options);
+    const GasCavity cavity = cavity_of(hole, options);
     const std::vector<double> u = hole.at_rest();
     const auto left = [&](int n) {
         std::vector<double> z{p_0}, next(1);
@@ -271,11 +274,11 @@ TEST(GasCavity, WallThatHasParted_IsClosedByALine) {
     Hole hole;
     hole.mesh.nodes.push_back(hole.mesh.nodes[2]);  // a copy of node 2: the wall 2-1 has come off
     hole.edges[2].a = 4;
-    const GasCavity cavity = make(hole, gas());
-    EXPECT_NEAR(cavity.initial_volume(), 2 * thickness, round_off);
+    const GasCavity cavity = cavity_of(hole, gas());
+    EXPECT_NEAR(cavity.initial_volume(), 2 * thickness, gas_round_off);
     std::vector<double> u = hole.at_rest();
     u[8] = 0.3;  // it leans outwards: a trapezoid and the triangle of the mouth
-    EXPECT_NEAR(cavity.volume(trial(0, u)), (2 + 0.5 * 0.3 * 1) * thickness, round_off);
+    EXPECT_NEAR(cavity.volume(trial(0, u)), (2 + 0.5 * 0.3 * 1) * thickness, gas_round_off);
 }
 
 TEST(GasCavity, Quarter_IsClosedByPlanesOfSymmetry) {
@@ -287,13 +290,13 @@ TEST(GasCavity, Quarter_IsClosedByPlanesOfSymmetry) {
     EXPECT_THROW(GasCavity(options, mesh, edges, thickness), InputError);
     options.about = {3, 4};
     const GasCavity cavity(options, mesh, edges, thickness);
-    EXPECT_NEAR(cavity.initial_volume(), thickness, round_off);
+    EXPECT_NEAR(cavity.initial_volume(), thickness, gas_round_off);
     std::vector<double> u(6, 0.0), f(6, 0.0);
     cavity.add_force(trial(0, u), f);
-    EXPECT_NEAR(f[0], 0.5 * p_0 * thickness, round_off * p_0);
-    EXPECT_NEAR(f[5], 0.5 * p_0 * thickness, round_off * p_0);
+    EXPECT_NEAR(f[0], 0.5 * p_0 * thickness, gas_round_off * p_0);
+    EXPECT_NEAR(f[5], 0.5 * p_0 * thickness, gas_round_off * p_0);
     u[0] = u[2] = 0.5;
-    EXPECT_NEAR(cavity.volume(trial(0, u)), 1.5 * thickness, round_off);
+    EXPECT_NEAR(cavity.volume(trial(0, u)), 1.5 * thickness, gas_round_off);
 }
 
 /// The message of what making a gas throws.
@@ -321,7 +324,7 @@ TEST(GasCavity, NothingLeft_AsksForAnotherTrial) {
     std::vector<double> u = hole.at_rest(), f = u;
     u[1] = u[3] = 1.5;
     try {
-        make(hole, gas()).add_force(trial(0.25, u), f);
+        cavity_of(hole, gas()).add_force(trial(0.25, u), f);
         FAIL();
     } catch (const RecoverableError& error) {
         EXPECT_THAT(error.what(),

@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-LumpedOptions gas(bool changing) {
+LumpedOptions gas_in_the_hole(bool changing) {
     LumpedOptions options;
     options.name = "gas";
     options.on = "hole";
@@ -28,7 +28,7 @@ LumpedOptions gas(bool changing) {
     }
     return options;
 }
-LumpedOptions hammer() {
+LumpedOptions falling_hammer() {
     LumpedOptions options;
     options.kind = LumpedOptions::Kind::mass;
     options.name = "hammer";
@@ -62,7 +62,7 @@ State moved(const test::Solid& solid, double size) {
 }
 
 TEST(LumpedModels, Layout_PointsStandBehindNodesAndTheirZBehindThatOfElements) {
-    const test::Solid with = solid(true, {gas(true), hammer()}, Form::hypo);
+    const test::Solid with = solid(true, {gas_in_the_hole(true), falling_hammer()}, Form::hypo);
     const test::Solid without = solid(true, {}, Form::hypo);
     const Layout layout = with.system->layout(), plain = without.system->layout();
     EXPECT_EQ(layout.n_dof, plain.n_dof + 2);
@@ -76,14 +76,14 @@ TEST(LumpedModels, Layout_PointsStandBehindNodesAndTheirZBehindThatOfElements) {
     EXPECT_THAT(names, ElementsAre("gas.pressure", "gas.volume", "gas.energy", "gas.charge", "hammer.displacement",
                                    "hammer.velocity", "hammer.force"));
     EXPECT_TRUE(with.system->force_depends_on_velocity());
-    EXPECT_FALSE(solid(true, {gas(true)}).system->force_depends_on_velocity());
+    EXPECT_FALSE(solid(true, {gas_in_the_hole(true)}).system->force_depends_on_velocity());
     std::vector<double> weights(layout.n_internal);
     with.system->internal_weights(weights);
     EXPECT_EQ(weights.back(), 1);
 }
 
 TEST(LumpedModels, Force_IsThatOfTheSolidAndThatOfTheModels) {
-    const test::Solid with = solid(false, {gas(false), hammer()}), without = solid(false, {});
+    const test::Solid with = solid(false, {gas_in_the_hole(false), falling_hammer()}), without = solid(false, {});
     const State state = moved(with, 0.01);
     State plain = state;
     plain.u.resize(plain.u.size() - 2);
@@ -103,7 +103,7 @@ class TangentWithModels : public testing::TestWithParam<bool> {};
 
 TEST_P(TangentWithModels, FromTheAcceptedState_IsTheDerivativeOfTheForce) {
     for (const bool given : {false, true}) {
-        const test::Solid with = solid(GetParam(), {gas(true), hammer()});
+        const test::Solid with = solid(GetParam(), {gas_in_the_hole(true), falling_hammer()});
         const State accepted = moved(with, 0.01);
         State at = moved(with, 0.02);
         at.t = 1e-4;
@@ -138,7 +138,7 @@ TEST_P(TangentWithModels, FromTheAcceptedState_IsTheDerivativeOfTheForce) {
             for (Eigen::Index i = 0; i < n; ++i)
                 EXPECT_NEAR(diagonal[static_cast<std::size_t>(i)], matrix(i, i), 1e-14 * matrix.cwiseAbs().maxCoeff());
         }
-        EXPECT_EQ(tangent.beside(accepted, trial(), {.stiffness = 1}).dyads.size(), 1u) << "the gas alone";
+        EXPECT_EQ(tangent.beside(accepted, trial(), {.stiffness = 1}).dyads.size(), 1u) << "the gas_in_the_hole alone";
     }
 }
 
@@ -147,9 +147,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, TangentWithModels, testing::Bool(),
 
 TEST(LumpedModels, FrequencyBound_IsAboveTheLargestFrequency) {
     // so stiff, and so heavy, that one of them rules
-    LumpedOptions pressed = gas(false);
+    LumpedOptions pressed = gas_in_the_hole(false);
     pressed.pressure = 1e11;
-    LumpedOptions stiff = hammer();
+    LumpedOptions stiff = falling_hammer();
     stiff.stiffness = 1e13;
     for (const LumpedOptions& options : {pressed, stiff}) {
         const test::Solid with = solid(true, {options}), without = solid(true, {});
@@ -162,7 +162,7 @@ TEST(LumpedModels, FrequencyBound_IsAboveTheLargestFrequency) {
 }
 
 TEST(LumpedModels, OneAndTwoThreads_SameBits) {
-    const test::Solid with = solid(true, {gas(true), hammer()});
+    const test::Solid with = solid(true, {gas_in_the_hole(true), falling_hammer()});
     const State state = moved(with, 0.01);
     std::vector<double> one(state.u.size()), two(one.size());
     with.system->force(state, Trial::of(state), one);
@@ -173,11 +173,11 @@ TEST(LumpedModels, OneAndTwoThreads_SameBits) {
 }
 
 TEST(MakeLumped, EveryProblem_IsReportedWithItsPlace) {
-    LumpedOptions nowhere = gas(false), outside = gas(false);
+    LumpedOptions nowhere = gas_in_the_hole(false), outside = gas_in_the_hole(false);
     nowhere.on = "hle";
     outside.on = "outer";
     try {
-        make_lumped(test::plate_with_hole(false), {gas(false), nowhere, outside}, 1);
+        make_lumped(test::plate_with_hole(false), {gas_in_the_hole(false), nowhere, outside}, 1);
         FAIL();
     } catch (const InputError& error) {
         ASSERT_EQ(error.problems().size(), 2u);

@@ -3,18 +3,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "materials/small_strain_stiffness.hpp"
+#include "support/eps.hpp"
 #include "support/one_thread.hpp"
 #include "support/small_solids.hpp"
 
 namespace gneiss {
 namespace {
 
+using test::eps;
 using testing::ElementsAre;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 LoadOptions traction(const std::string& on, double x, double y, double start) {
     LoadOptions load;

@@ -33,7 +33,7 @@ constexpr Law laws[] = {{"Hyper", LawKind::munjiza, Form::hyper, false, Plane::s
                         {"NeoHookeanStrain", LawKind::neo_hookean, Form::hyper, false, Plane::strain},
                         {"NeoHookeanStress", LawKind::neo_hookean, Form::hyper, false, Plane::stress}};
 
-struct Choice {
+struct TangentChoice {
     Shape shape;
     Volumetric volumetric;
     Law law;
@@ -65,17 +65,17 @@ struct Choice {
     bool symmetric() const { return !direct() && !centre() && !viscous && !law.stiffening; }
 };
 
-void PrintTo(const Choice& choice, std::ostream* out) { *out << choice.name(); }
+void PrintTo(const TangentChoice& choice, std::ostream* out) { *out << choice.name(); }
 
-std::vector<Choice> choices(bool refused) {
-    std::vector<Choice> all;
+std::vector<TangentChoice> tangent_choices(bool refused) {
+    std::vector<TangentChoice> all;
     for (const Shape shape : {Shape::cst, Shape::straight, Shape::curved})
         for (const Volumetric volumetric : {Volumetric::mean, Volumetric::centre})
             for (const Law& law : laws)
                 for (const StressMap map : {StressMap::conjugate, StressMap::direct})
                     for (const bool viscous : {false, true})
                         for (const bool given : {false, true}) {
-                            const Choice choice{shape, volumetric, law, map, viscous, given};
+                            const TangentChoice choice{shape, volumetric, law, map, viscous, given};
                             if (choice.distinct() && choice.refused() == refused) all.push_back(choice);
                         }
     return all;
@@ -96,7 +96,7 @@ Mesh distorted_mesh(Shape shape) {
     return mesh;
 }
 
-test::Solid make_solid(const Choice& choice) {
+test::Solid make_solid(const TangentChoice& choice) {
     test::SolidDescription what;
     what.solid.compt = choice.compt();
     what.solid.plane = choice.law.plane;
@@ -129,15 +129,15 @@ Eigen::MatrixXd differences(const SemiDiscrete& system, const State& accepted, c
                             bool given = false) {
     const auto n = static_cast<Eigen::Index>(at.u.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-    State moved = at;
-    std::vector<double>& x = by_velocity ? moved.v : moved.u;
+    State displaced = at;
+    std::vector<double>& x = by_velocity ? displaced.v : displaced.u;
     const double size = 1e-5 * (by_velocity ? 1 : system.smallest_length());
     Eigen::VectorXd f(n);
     for (Eigen::Index j = 0; j < n; ++j) {
         const double before = x[static_cast<std::size_t>(j)];
         for (const auto& [step, weight] : {std::pair(-2, 1.0), {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
             x[static_cast<std::size_t>(j)] = before + step * size;
-            system.force(accepted, trial_of(moved, given), {f.data(), at.u.size()});
+            system.force(accepted, trial_of(displaced, given), {f.data(), at.u.size()});
             matrix.col(j) -= weight / (12 * size) * f;
         }
         x[static_cast<std::size_t>(j)] = before;
@@ -146,7 +146,7 @@ Eigen::MatrixXd differences(const SemiDiscrete& system, const State& accepted, c
 }
 
 /// A smooth motion with strains of a few percent.
-State moved(const test::Solid& solid, double size) {
+State displaced(const test::Solid& solid, double size) {
     State state = solid.system->initial_state();
     for (std::size_t node = 0; node < solid.mesh.n_nodes(); ++node) {
         const auto& [x, y] = solid.mesh.nodes[node];
@@ -160,15 +160,15 @@ State moved(const test::Solid& solid, double size) {
 
 double largest(const Eigen::MatrixXd& a) { return a.cwiseAbs().maxCoeff(); }
 
-class SolidTangentOf : public testing::TestWithParam<Choice> {
+class SolidTangentOf : public testing::TestWithParam<TangentChoice> {
 protected:
     SolidTangentOf() : solid_(make_solid(GetParam())) {
         // the accepted state has a memory, and the trial is elsewhere
-        accepted_ = moved(solid_, 0.02);
+        accepted_ = displaced(solid_, 0.02);
         const State before = solid_.system->initial_state();
         std::vector<double> f(accepted_.u.size());
         solid_.system->force_and_update(before, Trial::of(accepted_), f, accepted_.z, accepted_.history);
-        at_ = moved(solid_, 0.05);
+        at_ = displaced(solid_, 0.05);
         at_.z = accepted_.z;
         at_.history = accepted_.history;
         trial_ = trial_of(at_, GetParam().given);
@@ -183,7 +183,7 @@ protected:
 };
 
 TEST_P(SolidTangentOf, AwayFromTheAcceptedState_IsTheDerivativeOfTheForce) {
-    const Choice& choice = GetParam();
+    const TangentChoice& choice = GetParam();
     ASSERT_EQ(solid_.system->layout().n_internal > 0, choice.has_internal());
     for (std::size_t e = 0; choice.compt() && e < solid_.mesh.n_elements(); ++e)
         ASSERT_EQ(has_straight_sides(solid_.mesh, e), choice.shape == Shape::straight);
@@ -209,15 +209,15 @@ TEST_P(SolidTangentOf, Symmetry_IsWhatItSays) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryCombination, SolidTangentOf, testing::ValuesIn(choices(false)),
+INSTANTIATE_TEST_SUITE_P(EveryCombination, SolidTangentOf, testing::ValuesIn(tangent_choices(false)),
                          [](const auto& test_case) { return test_case.param.name(); });
 
 TEST(SolidTangent, EveryOtherCombination_IsRefused) {
     // CST: 12 of Munjiza's material and 4 of the neo-Hookean one, 10 of them with z that may be given. COMPT of either
     // shape: the same, and at the centre 6 with `direct`, all with z; what has no energy to give up is refused.
-    EXPECT_EQ(choices(false).size(), 26u + 2 * (26 + 12));
-    EXPECT_EQ(choices(true).size(), 2u * (10 + 4));
-    for (const Choice& choice : choices(true)) {
+    EXPECT_EQ(tangent_choices(false).size(), 26u + 2 * (26 + 12));
+    EXPECT_EQ(tangent_choices(true).size(), 2u * (10 + 4));
+    for (const TangentChoice& choice : tangent_choices(true)) {
         try {
             make_solid(choice);
             ADD_FAILURE() << choice.name();
@@ -273,7 +273,7 @@ TEST(SolidTangent, FollowerPressure_IsTheDerivativeOfTheForce) {
     what.loads = {pressure};
     for (const bool compt : {false, true}) {
         const test::Solid solid = test::distorted_solid(compt, what);
-        State state = moved(solid, 0.05);
+        State state = displaced(solid, 0.05);
         state.t = 0.5;
         state.last_event = 0;
         const Tangent& tangent = *solid.system->tangent();
@@ -304,7 +304,7 @@ TEST(SolidTangent, DiagonalAlone_IsThatOfTheMatrix) {
     what.loads = {pressure};
     for (const bool compt : {false, true}) {
         const test::Solid solid = test::distorted_solid(compt, what);
-        const State state = moved(solid, 0.05);
+        const State state = displaced(solid, 0.05);
         const Tangent::Factors factors{.mass = 2e5, .damping = 1e3, .stiffness = 1, .velocity = 10};
         std::vector<double> diagonal(state.u.size(), 1e300);
         solid.system->tangent()->assemble_diagonal(state, Trial::of(state), factors, diagonal);
@@ -318,7 +318,7 @@ TEST(SolidTangent, DiagonalAlone_IsThatOfTheMatrix) {
 
 TEST(SolidTangent, OneAndTwoThreads_SameBits) {
     const test::Solid solid = test::make_solid(test::rectangle(true, 3, 3, {30, 30}), {});
-    const State state = moved(solid, 0.01);
+    const State state = displaced(solid, 0.01);
     const Tangent& tangent = *solid.system->tangent();
     std::vector<double> one(tangent.n_nonzero()), two(one.size());
     omp_set_num_threads(1);
