@@ -1,10 +1,15 @@
-# Where ccache is installed and not switched off: in a new place it finds nothing, and looking takes a second of each file.
-if(GNEISS_CCACHE AND NOT DEFINED ENV{CCACHE_DISABLE})
-  find_program(GNEISS_CCACHE_PROGRAM ccache)
-  if(GNEISS_CCACHE_PROGRAM)
-    set(CMAKE_C_COMPILER_LAUNCHER "${GNEISS_CCACHE_PROGRAM}")
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${GNEISS_CCACHE_PROGRAM}")
+# ccache is used where it is installed at the first configuration; looked for again, it would have everything compiled anew on
+# the day on which it comes.
+if(GNEISS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  if(NOT DEFINED GNEISS_COMPILER_LAUNCHER)
+    find_program(gneiss_ccache ccache NO_CACHE)
+    if(NOT gneiss_ccache)
+      set(gneiss_ccache "")
+    endif()
+    set(GNEISS_COMPILER_LAUNCHER "${gneiss_ccache}" CACHE STRING "What compilers are called by; decided at the first configuration")
   endif()
+  set(CMAKE_C_COMPILER_LAUNCHER "${GNEISS_COMPILER_LAUNCHER}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${GNEISS_COMPILER_LAUNCHER}")
 endif()
 
 # One interface target carries every flag that our own code is compiled with. The architecture flag belongs here
@@ -59,7 +64,7 @@ function(gneiss_precompiled target owner)
 endfunction()
 
 # gneiss_unity(TARGET): compiles several of its files at once, in half of the processor time of a clean build. So names in
-# unnamed namespaces are met once per folder.
+# unnamed namespaces are met once per library, or executable of tests.
 function(gneiss_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${GNEISS_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()

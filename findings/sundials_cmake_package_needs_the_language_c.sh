@@ -18,6 +18,11 @@
 # Needs cmake, a C and a C++ compiler, and MPI's compiler wrappers on the machine (Debian packages cmake, g++, libopenmpi-dev).
 set -euo pipefail
 
+for program in cmake g++ mpicc mpicxx; do
+    command -v "$program" >/dev/null || { echo "$program is not installed"; exit 1; }
+done
+[[ $(dpkg --print-architecture) == amd64 ]] || { echo "the packages are those of amd64"; exit 1; }
+
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"

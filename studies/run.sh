@@ -44,7 +44,9 @@ fail() { printf '\nstudies/run.sh: %s\n' "$1" >&2; exit 1; }
 # On a bare machine the compiler need not wait for what draws the figures: those packages come beside it.
 set=run first=build
 ! grep -q crosscheck "studies/$name/Snakefile" || set=crosscheck first=crosscheck
-step 1/4 "Debian packages: on a bare machine two to four minutes, otherwise at once"
+# sudo may have to ask for a password, which nobody can type beside a build
+[[ $EUID -eq 0 ]] || sudo -n true 2>/dev/null || first=$set
+step 1/4 "Debian packages: on a bare machine one to three minutes, otherwise at once"
 cmake/install_debian_packages.sh "$first"
 took
 
@@ -52,7 +54,9 @@ step 2/4 "building the program with preset $preset in build/$preset: four minute
 beside=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX")
 cmake/install_debian_packages.sh "$set" </dev/null >"$beside" 2>&1 &
 packages_job=$!
-trap 'wait; rm -f "$beside"' EXIT  # apt is not left behind half-way
+# apt is not left behind half-way
+trap '[[ ! -d /proc/$packages_job ]] || echo "waiting until apt has installed the packages that draw the figures"
+      wait; rm -f "$beside"' EXIT
 cmake --preset "$preset" >/dev/null \
     || fail "configuring failed; if build/$preset is left over from another place, delete it"
 targets=(gneiss_app)
@@ -69,9 +73,11 @@ NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" 
 [[ ! -d /proc/$packages_job ]] || echo "      waiting for the packages that draw the figures"
 packages_status=0
 wait "$packages_job" || packages_status=$?
-sed 's/^packages:/packages, beside the build:/' "$beside"
-# sudo may have asked for a password that nobody could type there
-[[ $packages_status -eq 0 ]] || cmake/install_debian_packages.sh "$set"
+if [[ $packages_status -eq 0 ]]; then
+    sed 's/^packages:/      packages, beside the build:/' "$beside"
+else
+    cmake/install_debian_packages.sh "$set"  # once more, to be seen
+fi
 took
 
 mkdir -p "$results"

@@ -78,6 +78,7 @@ class Machine(unittest.TestCase):
     def test_sets_are_nested_and_a_run_asks_for_no_test_library(self) -> None:
         build, run, crosscheck, tests = (self.packages(name) for name in ("build", "run", "crosscheck", "tests"))
         self.assertLess(set(build), set(run))
+        self.assertEqual(set(run) - set(build), {"python3-numpy", "python3-scipy", "python3-matplotlib", "snakemake"})
         self.assertLess(set(run), set(crosscheck))
         self.assertLess(set(crosscheck), set(tests))
         self.assertEqual(self.packages(), tests)

@@ -11,7 +11,7 @@
 namespace gneiss {
 namespace {
 
-/// An end that is this close to the other line, relative to the longer of the two, touches it: a hundred times Gmsh's
+/// An end that is this close to the other line, relative to the shorter of the two, touches it: a hundred times Gmsh's
 /// own tolerance of geometry.
 constexpr double touching = 1e-6;
 
@@ -36,7 +36,17 @@ std::optional<StraightLine> straight_line(int curve, bool of_outline) {
         gmsh::model::getValue(0, point, {}, x);
         return {x.at(0), x.at(1)};
     };
-    return StraightLine{curve, of_outline, at(ends[0].second), at(ends[1].second)};
+    const StraightLine line{curve, of_outline, at(ends[0].second), at(ends[1].second)};
+    // "Line" may be a chain of several points: only one that stays on its chord is straight
+    std::vector<double> low, high, x;
+    gmsh::model::getParametrizationBounds(1, curve, low, high);
+    constexpr int n_samples = 16;
+    for (int k = 1; k < n_samples; ++k) {
+        gmsh::model::getValue(1, curve, {low.at(0) + (high.at(0) - low.at(0)) * k / n_samples}, x);
+        if (distance_to_edge({x.at(0), x.at(1)}, line.from, line.to) > touching * distance(line.from, line.to))
+            return std::nullopt;
+    }
+    return line;
 }
 
 std::vector<StraightLine> lines_of(int surface) {
@@ -55,13 +65,15 @@ std::vector<StraightLine> lines_of(int surface) {
     return lines;
 }
 
-/// Where two lines cross between their ends.
+/// The point at which two lines cross between their ends, if they do.
 std::optional<Point2> crossing(const StraightLine& a, const StraightLine& b) {
-    const double longer = std::max(distance(a.from, a.to), distance(b.from, b.to));
+    const double length_a = distance(a.from, a.to), length_b = distance(b.from, b.to);
     const double a_from = triangle_area(b.from, b.to, a.from), a_to = triangle_area(b.from, b.to, a.to);
     const double b_from = triangle_area(a.from, a.to, b.from), b_to = triangle_area(a.from, a.to, b.to);
-    const double least = 0.5 * touching * longer * longer;
-    if (std::min({std::abs(a_from), std::abs(a_to), std::abs(b_from), std::abs(b_to)}) <= least) return std::nullopt;
+    // half a distance times a length is an area
+    const double least = 0.5 * touching * std::min(length_a, length_b);
+    if (std::min(std::abs(a_from), std::abs(a_to)) <= least * length_b) return std::nullopt;
+    if (std::min(std::abs(b_from), std::abs(b_to)) <= least * length_a) return std::nullopt;
     if ((a_from > 0) == (a_to > 0) || (b_from > 0) == (b_to > 0)) return std::nullopt;
     const double t = a_from / (a_from - a_to);
     return Point2{a.from[0] + t * (a.to[0] - a.from[0]), a.from[1] + t * (a.to[1] - a.from[1])};
@@ -87,9 +99,11 @@ std::vector<Problem> crossed_outlines(const std::string& where) {
             }
         }
         if (n_crossings > 0)
-            problems.push_back({where, fmt::format("surface {}: {}, where the drawing has no common point of theirs "
-                                                   "({} such): the outline of a surface must not be crossed",
-                                                   surface, first, n_crossings)});
+            problems.push_back(
+                {where,
+                 fmt::format("surface {}: {} without a common point{}: split them there, or end "
+                             "them on the outline",
+                             surface, first, n_crossings == 1 ? "" : fmt::format(" ({} crossings)", n_crossings))});
     }
     return problems;
 }

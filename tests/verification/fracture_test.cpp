@@ -116,8 +116,8 @@ TEST_P(Strip, UnderASolverThatRejectsSteps_SoftensAsInSmallSteps) {
     }
     // In composites round-off decides which of the ends that soften together goes ahead: 2e-3 to 3e-3 whatever rtol is,
     // from 1e-5 to 1e-6, by the width of a pack.
-    constexpr double of_paths = 5e-3;
-    EXPECT_LE(difference, (GetParam() ? of_paths : tolerance) * largest);
+    constexpr double bifurcation_tolerance = 5e-3;
+    EXPECT_LE(difference, (GetParam() ? bifurcation_tolerance : tolerance) * largest);
 }
 
 }  // namespace

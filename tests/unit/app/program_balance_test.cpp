@@ -93,7 +93,7 @@ output = { history = 5e-5 }
 }
 
 /// A bar that is loaded and unloaded, statically.
-const std::string loaded_square_deck = R"toml(
+const std::string loaded_bar_deck = R"toml(
 mesh = { generator = "rectangle", width = 1.0, height = 0.25, cells = [4, 1] }
 solid = { plane = "strain" }
 material = [{ density = 1000.0, constants = { E = 1e7, nu = 0.0 } }]
@@ -112,7 +112,7 @@ TEST_F(ProgramBalance, UnloadedStatics_AreMeasuredByWhatThereWas) {
                       support = "[[boundary]]\non = \"right\"\ntype = \"displacement\"\nvalue = [1e-3, \"free\"]\n" +
                                 up_and_down;
     for (const std::string& what : {load, support, std::string()}) {
-        put("case.toml", loaded_square_deck + what);
+        put("case.toml", loaded_bar_deck + what);
         ASSERT_EQ(run({}).code, 0);
         const std::vector<double> tip = table("out/probes.csv")["tip.u_x [m]"];
         ASSERT_EQ(tip.size(), 9u);
@@ -129,7 +129,7 @@ TEST_F(ProgramBalance, LoadThatJumps_InStatics_DoesTheWorkThatIsStored) {
         for (const char* amplitude : {"amplitude = \"constant\"", "amplitude = \"heaviside\"",
                                       "amplitude = { type = \"heaviside\", start = 2.0 }"}) {
             put("case.toml",
-                loaded_square_deck + "[[load]]\non = \"right\"\ntype = \"traction\"\nvalue = [1e4, 0.0]\n" + amplitude);
+                loaded_bar_deck + "[[load]]\non = \"right\"\ntype = \"traction\"\nvalue = [1e4, 0.0]\n" + amplitude);
             ASSERT_EQ(run({type}).code, 0);
             const double work = history("external_work [J]").back();
             EXPECT_NEAR(work, 0.5 * 1e4 * 0.25 * 1e-3, 2e-3 * work) << type << amplitude;  // strain

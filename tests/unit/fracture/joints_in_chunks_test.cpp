@@ -20,13 +20,13 @@ namespace {
 
 using Law = MixedModeLaw<Insertion::intrinsic>;
 
-const CohesionProperties<double> cohesion{.tensile_strength = 3e6,
-                                          .cohesion = 8e6,
-                                          .tan_phi_initial = 0.6,
-                                          .tan_phi_residual = 0.4,
-                                          .fracture_energy_i = 300,
-                                          .fracture_energy_ii = 900,
-                                          .penalty = 1e11};
+const CohesionProperties<double> joint_properties{.tensile_strength = 3e6,
+                                                  .cohesion = 8e6,
+                                                  .tan_phi_initial = 0.6,
+                                                  .tan_phi_residual = 0.4,
+                                                  .fracture_energy_i = 300,
+                                                  .fracture_energy_ii = 900,
+                                                  .penalty = 1e11};
 // Openings are up to these, m, and 3e-5 at the strength. In between many ends are further apart than that and intact,
 // because they are compressed or slide: packs of them need the law to tell, most do stay elastic.
 constexpr double elastic_size = 5e-6, mixed_size = 3.2e-5, softening_size = 5e-5;
@@ -43,7 +43,8 @@ protected:
         std::iota(all.begin(), all.end(), 0);
         sides.open(all);
         sides.renumber();
-        for (const JointEdge& edge : joint_edges(mesh, sides, all)) joints.push_back({edge.nodes, cohesion, edge.side});
+        for (const JointEdge& edge : joint_edges(mesh, sides, all))
+            joints.push_back({edge.nodes, joint_properties, edge.side});
         apart = test::make_solid(mesh, {});
         const Mesh copy = mesh;  // make_solid() takes the mesh before it asks for more parts
         solid = test::make_solid(std::move(mesh), {}, [&](SolidSystem::Parts& parts) {
@@ -92,8 +93,8 @@ TEST_P(JointsInChunks, Forces_AreThoseOfTheJointsOneByOne) {
             const auto motion = joint_motion(edge, u);
             std::array<Traction<double>, joint_points> tractions;
             for (std::size_t i = 0; i < joint_points; ++i) {
-                tractions[i] = Law::traction(cohesion, {}, motion.opening[i], motion.slip[i]);
-                n_intact += Law::stays_intact(cohesion, 0.0, motion.opening[i], motion.slip[i]);
+                tractions[i] = Law::traction(joint_properties, {}, motion.opening[i], motion.slip[i]);
+                n_intact += Law::stays_intact(joint_properties, 0.0, motion.opening[i], motion.slip[i]);
             }
             const auto f = joint_forces(motion, 0.5 * std::sqrt(dot(edge, edge)), tractions);
             for (std::size_t k = 0; k < joint_nodes; ++k) {

@@ -41,7 +41,7 @@ State march_to(const SemiDiscrete& system, Integrator& integrator, double t_end)
     return state;
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+double l2_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return std::sqrt(sum);
@@ -61,8 +61,7 @@ TEST(LocalSteps, HalvedSteps_ConvergeWithOrderTwo) {
             CentralDifference local({.dt = dt}, most_levels_allowed);
             const State end = march_to(*solid.system, local, t_end);
             const double omega = 1 / (0.5 * t_end);  // weighs velocities like displacements
-            const double now =
-                std::hypot(largest_difference(end.u, exact.u), largest_difference(end.v, exact.v) / omega);
+            const double now = std::hypot(l2_difference(end.u, exact.u), l2_difference(end.v, exact.v) / omega);
             if (before > 0) {
                 EXPECT_NEAR(std::log2(before / now), 2, 0.15) << "dt = " << dt << ", compt " << compt;
             }

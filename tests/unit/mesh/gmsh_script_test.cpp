@@ -162,7 +162,7 @@ TEST_F(GmshFile, Geo_ParameterInAComment_DoesNotOccur) {
                 HasSubstr("does not occur in the file"));
 }
 
-// Gmsh 4.13 does not come back from meshing the first two
+// The first two are refused before Gmsh meshes them: version 4.13 does not come back.
 TEST_F(GmshFile, Geo_CrossedOutline_IsRefusedWithThePlace) {
     const std::string square =
         "Point(1) = {0,0,0,0.3}; Point(2) = {1,0,0,0.3}; Point(3) = {1,1,0,0.3}; Point(4) = {0,1,0,0.3};\n";
@@ -182,6 +182,30 @@ TEST_F(GmshFile, Geo_CrossedOutline_IsRefusedWithThePlace) {
         read("crossing_cracks.geo", surface + "Point(9) = {0.9,0.3,0,0.3}; Line(7) = {5,9}; Line{6,7} In Surface{1};\n")
             .n_elements(),
         0u);
+}
+
+TEST_F(GmshFile, Geo_ShortLineAcrossALongOne_IsACrossing) {
+    // a line of a metre leaves a block of a kilometre half a metre from its corner
+    EXPECT_THAT(
+        error_of(
+            "notch.geo",
+            "Point(1) = {0,0,0,50}; Point(2) = {1000,0,0,50}; Point(3) = {1000,1000,0,50}; Point(4) = {0,1000,0,50};\n"
+            "Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,1};\n"
+            "Curve Loop(1) = {1,2,3,4}; Plane Surface(1) = {1};\n"
+            "Point(5) = {0.5,0.5,0,1}; Point(6) = {0.5,-0.5,0,1}; Line(5) = {5,6}; Line{5} In Surface{1};\n"),
+        HasSubstr("surface 1: lines 1 and 5 cross at (0.5, 0) m without a common point: split them there"));
+}
+
+TEST_F(GmshFile, Geo_ChainOfPoints_IsNotTakenForItsChord) {
+    // line 4 goes around an end of line 5, which its chord would cross
+    EXPECT_GT(read("chain.geo",
+                   "Point(1) = {0,0,0,0.3}; Point(2) = {1,0,0,0.3}; Point(3) = {1,1,0,0.3}; Point(4) = {0,1,0,0.3};\n"
+                   "Point(5) = {-1,0.8,0,0.3}; Point(6) = {-1,0.2,0,0.3}; Point(7) = {-0.5,0.5,0,0.3}; Point(8) = "
+                   "{0.5,0.5,0,0.3};\n"
+                   "Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,4}; Line(4) = {4,5,6,1}; Line(5) = {7,8};\n"
+                   "Curve Loop(1) = {1,2,3,4}; Plane Surface(1) = {1}; Line{5} In Surface{1};\n")
+                  .n_elements(),
+              0u);
 }
 
 TEST_F(GmshFile, Geo_LineThatEndsOnTheOutline_IsNoCrossing) {

@@ -138,7 +138,7 @@ TEST_P(TangentWithModels, FromTheAcceptedState_IsTheDerivativeOfTheForce) {
             for (Eigen::Index i = 0; i < n; ++i)
                 EXPECT_NEAR(diagonal[static_cast<std::size_t>(i)], matrix(i, i), 1e-14 * matrix.cwiseAbs().maxCoeff());
         }
-        EXPECT_EQ(tangent.beside(accepted, trial(), {.stiffness = 1}).dyads.size(), 1u) << "the gas_in_the_hole alone";
+        EXPECT_EQ(tangent.beside(accepted, trial(), {.stiffness = 1}).dyads.size(), 1u) << "the gas alone";
     }
 }
 
