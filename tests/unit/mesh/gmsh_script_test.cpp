@@ -127,7 +127,7 @@ TEST_F(GmshFile, Geo_ErrorsThatLeaveTheGeometryAlone_AreWarnings) {
     // one surface alone has nothing to be cut by; a statement that failed is still an error
     const std::string lone = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 2, 1};\nCoherence;\n";
     EXPECT_NEAR(total_area(read("lone.geo", lone)), 2, 1e-8);
-    EXPECT_THAT(report.warnings, ElementsAre("Gmsh: Boolean fragments failed"));
+    EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("Boolean fragments")));  // "failed" or, from 4.13, "skipped"
     EXPECT_THAT(error_of("lone.geo", lone + "Curve{77} In Surface{1};\n"), HasSubstr("lone.geo: Gmsh: "));
 }
 
