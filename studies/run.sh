@@ -50,7 +50,7 @@ step 1/4 "Debian packages: on a bare machine one to three minutes, otherwise at 
 cmake/install_debian_packages.sh "$first"
 took
 
-step 2/4 "building the program with preset $preset in build/$preset: four minutes the first time on two cores"
+step 2/4 "building the program with preset $preset in build/$preset: four to five minutes the first time on two cores"
 beside=$(mktemp "${TMPDIR:-/tmp}/gneiss-packages-XXXXXX")
 cmake/install_debian_packages.sh "$set" </dev/null >"$beside" 2>&1 &
 packages_job=$!
@@ -67,7 +67,8 @@ if [[ $set == crosscheck ]]; then
         echo "      deal.II is not installed (Debian package libdeal.ii-dev): what needs it is skipped"
     fi
 fi
-NINJA_STATUS='      [%f/%t, %e s] ' cmake --build --preset "$preset" -j "$jobs" --target "${targets[@]}" </dev/null \
+# apt first, which needs one core and would be waited for in the end
+NINJA_STATUS='      [%f/%t, %e s] ' nice -n 10 cmake --build --preset "$preset" -j "$jobs" --target "${targets[@]}" </dev/null \
     || fail "the build failed; the first error is above"
 [[ -x $program ]] || fail "the build left no $program"
 [[ ! -d /proc/$packages_job ]] || echo "      waiting for the packages that draw the figures"
