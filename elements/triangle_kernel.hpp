@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "base/dual.hpp"
 #include "base/functions.hpp"
@@ -19,6 +20,9 @@ enum class Sampling {
     mean,   ///< current area of the element over its initial area; of a CST its own
     centre  ///< det F of the central sub-triangle (COMPT): the tangent is not symmetric
 };
+
+/// In the place of a Sampling that is chosen at run time, for laws that offer no other.
+using MeanSampling = std::integral_constant<Sampling, Sampling::mean>;
 
 /// Geometry of the reference shape with the axes folded in.
 template <class Element, class V>
@@ -103,9 +107,19 @@ void axes_images(const std::array<Vec2<T>, Element::n_nodes>& u, const TriangleG
     beta.y = sub.k_a_beta * d_a.y + sub.k_c_beta * d_c.y;
 }
 
-template <class Element, Sampling sampling, class T, class V>
+/// The volumetric quantity of an element from those of its sub-triangles.
+/// @tparam S  Sampling or MeanSampling
+template <class Element, class T, class V, class S>
+T sampled_volume(const std::array<T, Element::n_sub>& values, const TriangleGeometry<Element, V>& geometry,
+                 S sampling) {
+    if constexpr (Element::n_sub > 1)
+        if (sampling == Sampling::centre) return values[Element::central];
+    return geometry.mean(values);
+}
+
+template <class Element, class T, class V, class S>
 TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Element::n_nodes>& u,
-                                                   const TriangleGeometry<Element, V>& geometry) {
+                                                   const TriangleGeometry<Element, V>& geometry, S sampling) {
     TriangleKinematics<Element, T> kinematics{};
     const Vec2<T> axis{T(geometry.axis.x), T(geometry.axis.y)};
     std::array<T, Element::n_sub> change;
@@ -118,11 +132,7 @@ TriangleKinematics<Element, T> triangle_kinematics(const std::array<Vec2<T>, Ele
         point.area_strain = area_strain(axis, point.h_alpha, point.h_beta);
         change[s] = point.area_strain;
     }
-    if constexpr (sampling == Sampling::mean) {
-        kinematics.volume_strain = geometry.mean(change);
-    } else {
-        kinematics.volume_strain = change[Element::central];
-    }
+    kinematics.volume_strain = sampled_volume(change, geometry, sampling);
     return kinematics;
 }
 
@@ -206,10 +216,10 @@ void triangle_force(const TriangleKinematics<Element, T>& kinematics, const Tria
 }
 
 /// Rates of the sub-triangles from nodal velocities, m/s; T may be a dual over the velocities where K is plain.
-template <class Element, Sampling sampling, class T, class K, class V>
+template <class Element, class T, class K, class V, class S>
 std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T>, Element::n_nodes>& v,
                                                          const TriangleKinematics<Element, K>& kinematics,
-                                                         const TriangleGeometry<Element, V>& geometry) {
+                                                         const TriangleGeometry<Element, V>& geometry, S sampling) {
     std::array<PointRates<T>, Element::n_sub> rates{};
     const K inverse_s_v = K(1.0) / (K(1.0) + kinematics.volume_strain);
     std::array<T, Element::n_sub> area_rate;
@@ -219,11 +229,7 @@ std::array<PointRates<T>, Element::n_sub> triangle_rates(const std::array<Vec2<T
         const Vec2<K> c_alpha = cofactor_alpha(kinematics.point[s]), c_beta = cofactor_beta(kinematics.point[s]);
         area_rate[s] = c_alpha.x * alpha.x + c_alpha.y * alpha.y + c_beta.x * beta.x + c_beta.y * beta.y;
     }
-    T change;
-    if constexpr (sampling == Sampling::mean)
-        change = geometry.mean(area_rate);
-    else
-        change = area_rate[Element::central];
+    const T change = sampled_volume(area_rate, geometry, sampling);
     for (auto& rate : rates) rate.volume = inverse_s_v * change;
     return rates;
 }

@@ -151,13 +151,16 @@ NodalVector<Element, V> weighted_sum(const TriangleGeometry<Element, V>& geometr
 }
 
 /// B_s^T w(s) where the volumetric stretch is taken: the mean by volume, or that of the central sub-triangle.
-template <Sampling sampling, class Element, class V, class W>
-NodalVector<Element, V> sampled(const TriangleGeometry<Element, V>& geometry, W w) {
+template <class S, class Element, class V, class W>
+NodalVector<Element, V> sampled(S sampling, const TriangleGeometry<Element, V>& geometry, W w) {
     NodalVector<Element, V> t;
-    if constexpr (sampling == Sampling::mean)
-        t.add(VolumeWeights<Element, V>{geometry}.mean(), weighted_sum(geometry, w));
-    else
-        t.add(w(Element::central), geometry, Element::central, V(1.0));
+    if constexpr (Element::n_sub > 1) {
+        if (sampling == Sampling::centre) {
+            t.add(w(Element::central), geometry, Element::central, V(1.0));
+            return t;
+        }
+    }
+    t.add(VolumeWeights<Element, V>{geometry}.mean(), weighted_sum(geometry, w));
     return t;
 }
 
@@ -202,11 +205,12 @@ V uniform_q_slope(const Law& law, const TriangleKinematics<Element, V>& kinemati
 
 /// Adds factor df/du of a law's nodal forces, memory updated with u unless given.
 /// @param kinematics  at the displacements of the derivative
-template <class Element, Sampling sampling, bool given, class Law, class V>
+/// @param sampling    Sampling or MeanSampling
+template <class Element, bool given, class Law, class V, class S>
 void add_law_tangent(const Law& law, const TriangleKinematics<Element, V>& kinematics,
                      const TriangleGeometry<Element, V>& geometry,
                      const std::array<typename Law::template Memory<V>, Element::n_sub>& memory, double factor,
-                     ElementMatrix<Element, V>& matrix) {
+                     S sampling, ElementMatrix<Element, V>& matrix) {
     using namespace tangents;
     constexpr bool own_volume = Element::n_sub == 1;
     constexpr bool by_axes_alone = own_volume || Law::uniform_q;
@@ -257,19 +261,19 @@ void add_law_tangent(const Law& law, const TriangleKinematics<Element, V>& kinem
             r.add(uniform_q_slope(law, kinematics, memory), c);
         else
             r.add(stress.q.derivative[fifth], c);
-        if constexpr (sampling == Sampling::mean)  // t is c, but for its factor
+        if (sampling == Sampling::mean)  // t is c, but for its factor
             add_product(V(total * weights.mean()), r, c, matrix);
         else
-            add_product(total, r, sampled<sampling>(geometry, cofactor), matrix);
+            add_product(total, r, sampled(sampling, geometry, cofactor), matrix);
     }
 }
 
 /// Adds c_u df/du + c_v df/dv of the viscous forces.
 /// @param rates  of the sub-triangles, from triangle_rates()
-template <class Element, Sampling sampling, class V>
+template <class Element, class V, class S>
 void add_viscous_tangent(const ViscousStress& viscosity, const TriangleKinematics<Element, V>& kinematics,
                          const std::array<PointRates<V>, Element::n_sub>& rates,
-                         const TriangleGeometry<Element, V>& geometry, double c_u, double c_v,
+                         const TriangleGeometry<Element, V>& geometry, double c_u, double c_v, S sampling,
                          ElementMatrix<Element, V>& matrix) {
     using namespace tangents;
     using D = Dual<5, V>;
@@ -291,11 +295,11 @@ void add_viscous_tangent(const ViscousStress& viscosity, const TriangleKinematic
     const NodalVector<Element, V> r =
         weighted_sum(geometry, [&](int s) { return by_fifth(by_v[static_cast<std::size_t>(s)]); });
     // (s_v'/s_v) = (mean of cof F : F')/s_v by v and by u
-    const NodalVector<Element, V> by_velocity = sampled<sampling>(geometry, [&](int s) {
+    const NodalVector<Element, V> by_velocity = sampled(sampling, geometry, [&](int s) {
         const auto& point = kinematics.point[static_cast<std::size_t>(s)];
         return cofactors(point.alpha(), point.beta());
     });
-    NodalVector<Element, V> t = sampled<sampling>(geometry, [&](int s) {
+    NodalVector<Element, V> t = sampled(sampling, geometry, [&](int s) {
         const auto& rate = rates[static_cast<std::size_t>(s)];
         return cofactors(rate.alpha, rate.beta);
     });

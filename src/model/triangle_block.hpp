@@ -1,10 +1,12 @@
 #pragma once
-// The block of one element, one sampling of the volume and one law: how it is stored, and what it shows of one element.
+// The block of one element and one law: how it is stored, and what it shows of one element.
 // What goes through whole packs is in triangle_block_evaluation.hpp. Included only by the files that instantiate it.
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "base/flatten.hpp"
 #include "elements/triangle_kernel.hpp"
@@ -13,10 +15,11 @@
 
 namespace gneiss {
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 class TriangleBlock final : public ElementBlock {
 public:
-    TriangleBlock(const Mesh& mesh, BlockGeometry geometry, Law law);
+    /// @param sampling  `mean` where the law offers no `centre`
+    TriangleBlock(const Mesh& mesh, BlockGeometry geometry, Law law, Sampling sampling);
 
     std::size_t n_elements() const override { return info_.elements.size(); }
     int n_nodes() const override { return Element::n_nodes; }
@@ -40,7 +43,7 @@ public:
     std::ptrdiff_t add_force(std::size_t first, std::size_t last, const Evaluation& at,
                              const LocalNodes& local) const override;
     bool symmetric_tangent() const override {
-        return law_.symmetric_tangent() && sampling == Sampling::mean && !viscous();
+        return law_.symmetric_tangent() && sampling_ == Sampling::mean && !viscous();
     }
     void add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u, double c_v,
                      const MatrixPlaces& places, double* values) const override;
@@ -70,6 +73,7 @@ private:
     template <class T>
     using Memory = std::array<typename Law::template Memory<T>, Element::n_sub>;
     using PackGeometry = TriangleGeometry<Element, Pack>;
+    using OfferedSampling = std::conditional_t<Law::offers_centre && (Element::n_sub > 1), Sampling, MeanSampling>;
 
     // ---- loads and stores of one pack; the scalar twins pick one lane
     // ------------------------------------------------
@@ -122,6 +126,7 @@ private:
 
     BlockGeometry info_;
     Law law_;
+    [[no_unique_address]] OfferedSampling sampling_{};
     PackVector axes_;                  ///< (packs, 2, width); one pack for all where all axes are parallel
     std::size_t axis_stride_;          ///< from pack to pack; 0 where all axes are parallel
     PackVector geometry_;              ///< (packs, fields, width): sub-triangles, inverse volume
@@ -131,9 +136,11 @@ private:
 
 // ---- construction --------------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
-TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeometry info, Law law)
+template <class Element, class Law>
+TriangleBlock<Element, Law>::TriangleBlock(const Mesh& mesh, BlockGeometry info, Law law, Sampling sampling)
     : info_(std::move(info)), law_(std::move(law)) {
+    if constexpr (std::is_same_v<OfferedSampling, Sampling>) sampling_ = sampling;
+    assert(sampling_ == sampling);
     const bool parallel =
         std::ranges::adjacent_find(info_.axis_angle, std::ranges::not_equal_to()) == info_.axis_angle.end();
     axis_stride_ = parallel ? 0 : 2 * pack_width;
@@ -172,9 +179,8 @@ TriangleBlock<Element, sampling, Law>::TriangleBlock(const Mesh& mesh, BlockGeom
     local_nodes_.resize(nodes_.size());
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::memory_at_rest(std::size_t local) const ->
-    typename Law::template Memory<double> {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::memory_at_rest(std::size_t local) const -> typename Law::template Memory<double> {
     if constexpr (requires { &Law::initial_memory; }) {
         if (!info_.in_situ_stress.empty()) {
             const auto& [xx, yy, xy] = info_.in_situ_stress[local];
@@ -188,8 +194,8 @@ auto TriangleBlock<Element, sampling, Law>::memory_at_rest(std::size_t local) co
     return {};
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* history) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::initial_memory(double* z, double* history) const {
     if constexpr (Law::n_internal > 0) {
         for (std::size_t slot = 0; slot < n_packs() * pack_width; ++slot) {
             const std::size_t local = std::min(slot, n_elements() - 1);
@@ -198,7 +204,7 @@ void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* hi
             memory.fill(memory_at_rest(local));
             // one update without a step puts strains and stresses at rest into the history
             const Nodal<double> rest{};
-            const auto kinematics = triangle_kinematics<Element, sampling>(rest, g);
+            const auto kinematics = triangle_kinematics<Element>(rest, g, sampling_);
             const auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
             const std::size_t pack = slot / pack_width, lane = slot % pack_width;
             for (std::size_t s = 0; s < Element::n_sub; ++s) {
@@ -213,8 +219,8 @@ void TriangleBlock<Element, sampling, Law>::initial_memory(double* z, double* hi
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::internal_weights(double* weights) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::internal_weights(double* weights) const {
     if constexpr (Law::n_internal > 0) {
         // the last of a law without stored energy is its accumulated stress power
         constexpr std::size_t counted = Law::has_stored_energy ? Law::n_internal : Law::n_internal - 1;
@@ -223,8 +229,8 @@ void TriangleBlock<Element, sampling, Law>::internal_weights(double* weights) co
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::add_mass(std::size_t local, std::span<double> mass) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::add_mass(std::size_t local, std::span<double> mass) const {
     const auto g = geometry_of(local);
     const std::size_t pack = local / pack_width, lane = local % pack_width;
     for (int s = 0; s < Element::n_sub; ++s) {
@@ -236,8 +242,8 @@ void TriangleBlock<Element, sampling, Law>::add_mass(std::size_t local, std::spa
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::renumber(const Mesh& mesh, std::span<const std::int32_t> locals) {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::renumber(const Mesh& mesh, std::span<const std::int32_t> locals) {
     for (const std::int32_t which : locals) {
         const auto local = static_cast<std::size_t>(which);
         const std::int32_t* element_nodes = mesh.element(static_cast<std::size_t>(info_.elements[local]));
@@ -252,9 +258,9 @@ void TriangleBlock<Element, sampling, Law>::renumber(const Mesh& mesh, std::span
 // ---- packs
 // -----------------------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 template <class V, class Load>
-auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* axis, const double* field, Load load)
+auto TriangleBlock<Element, Law>::read_geometry(const double* axis, const double* field, Load load)
     -> TriangleGeometry<Element, V> {
     const auto take = [&] {
         const V value = load(field);
@@ -275,23 +281,23 @@ auto TriangleBlock<Element, sampling, Law>::read_geometry(const double* axis, co
     return g;
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::geometry(std::size_t pack) const -> PackGeometry {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::geometry(std::size_t pack) const -> PackGeometry {
     return read_geometry<Pack>(axes_.data() + pack * axis_stride_, geometry_.data() + pack * geometry_stride,
                                [](const double* field) { return Pack::load_aligned(field); });
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::geometry_of(std::size_t local) const -> TriangleGeometry<Element, double> {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::geometry_of(std::size_t local) const -> TriangleGeometry<Element, double> {
     const std::size_t pack = local / pack_width, lane = local % pack_width;
     return read_geometry<double>(axes_.data() + pack * axis_stride_ + lane,
                                  geometry_.data() + pack * geometry_stride + lane,
                                  [](const double* field) { return *field; });
 }
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 template <class Index>
-auto TriangleBlock<Element, sampling, Law>::gather(const double* pairs, const Index* index) -> Nodal<Pack> {
+auto TriangleBlock<Element, Law>::gather(const double* pairs, const Index* index) -> Nodal<Pack> {
     Nodal<Pack> values;
 #pragma GCC unroll 6
     for (int node = 0; node < Element::n_nodes; ++node, index += pack_width)
@@ -299,8 +305,8 @@ auto TriangleBlock<Element, sampling, Law>::gather(const double* pairs, const In
     return values;
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::gather_one(const double* pairs, std::size_t local) const -> Nodal<double> {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::gather_one(const double* pairs, std::size_t local) const -> Nodal<double> {
     Nodal<double> values;
     const std::int32_t* index = nodes_.data() + local / pack_width * index_stride + local % pack_width;
     for (int node = 0; node < Element::n_nodes; ++node, index += pack_width)
@@ -308,8 +314,8 @@ auto TriangleBlock<Element, sampling, Law>::gather_one(const double* pairs, std:
     return values;
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::load_memory(const Evaluation& at, std::size_t pack) -> Memory<Pack> {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::load_memory(const Evaluation& at, std::size_t pack) -> Memory<Pack> {
     Memory<Pack> memory;
     for (std::size_t s = 0; s < Element::n_sub; ++s) {
         for (std::size_t k = 0; k < Law::n_internal; ++k)
@@ -321,8 +327,8 @@ auto TriangleBlock<Element, sampling, Law>::load_memory(const Evaluation& at, st
     return memory;
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::memory_of(const Evaluation& at, std::size_t local) const -> Memory<double> {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::memory_of(const Evaluation& at, std::size_t local) const -> Memory<double> {
     Memory<double> memory{};
     const std::size_t pack = local / pack_width, lane = local % pack_width;
     for (std::size_t s = 0; s < Element::n_sub; ++s) {
@@ -334,9 +340,9 @@ auto TriangleBlock<Element, sampling, Law>::memory_of(const Evaluation& at, std:
     return memory;
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::store_memory(const Memory<Pack>& memory, double* z, double* history,
-                                                         std::size_t pack) {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::store_memory(const Memory<Pack>& memory, double* z, double* history,
+                                               std::size_t pack) {
     for (std::size_t s = 0; s < Element::n_sub; ++s) {
         for (std::size_t k = 0; k < Law::n_internal; ++k)
             memory[s].z[k].store_unaligned(z + pack * z_stride + (s * Law::n_internal + k) * pack_width);
@@ -346,9 +352,9 @@ void TriangleBlock<Element, sampling, Law>::store_memory(const Memory<Pack>& mem
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t pack,
-                                                                    const Pack::batch_bool_type& upright) const {
+template <class Element, class Law>
+std::ptrdiff_t TriangleBlock<Element, Law>::inverted_lane(std::size_t pack,
+                                                          const Pack::batch_bool_type& upright) const {
     for (std::size_t lane = 0; lane < pack_width; ++lane)
         if (!upright.get(lane))
             return static_cast<std::ptrdiff_t>(std::min(pack * pack_width + lane, n_elements() - 1));
@@ -358,15 +364,14 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::inverted_lane(std::size_t 
 // ---- output
 // ------------------------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, const Evaluation& at,
-                                                         PointFields* fields) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::point_fields(std::size_t local, const Evaluation& at, PointFields* fields) const {
     const auto g = geometry_of(local);
-    const auto kinematics = triangle_kinematics<Element, sampling>(gather_one(at.u, local), g);
+    const auto kinematics = triangle_kinematics<Element>(gather_one(at.u, local), g, sampling_);
     const Memory<double> memory = memory_of(at, local);
     auto stress = triangle_stress<Element, false>(law_, kinematics, g, memory);
     std::array<PointRates<double>, Element::n_sub> rates{};
-    if (viscous()) rates = triangle_rates<Element, sampling>(gather_one(at.v, local), kinematics, g);
+    if (viscous()) rates = triangle_rates<Element>(gather_one(at.v, local), kinematics, g, sampling_);
     for (int s = 0; s < Element::n_sub; ++s) {
         const PointKinematics<double>& point = kinematics.point[s];
         const Vec2<double> alpha = point.alpha(), beta = point.beta();
@@ -392,9 +397,9 @@ void TriangleBlock<Element, sampling, Law>::point_fields(std::size_t local, cons
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-std::string TriangleBlock<Element, sampling, Law>::describe_inversion(std::size_t local, const Evaluation& at) const {
-    const auto kinematics = triangle_kinematics<Element, sampling>(gather_one(at.u, local), geometry_of(local));
+template <class Element, class Law>
+std::string TriangleBlock<Element, Law>::describe_inversion(std::size_t local, const Evaluation& at) const {
+    const auto kinematics = triangle_kinematics<Element>(gather_one(at.u, local), geometry_of(local), sampling_);
     for (int s = 0; s < Element::n_sub; ++s) {
         const double jacobian = kinematics.point[s].jacobian();
         if (!(jacobian > 0)) return fmt::format("sub-triangle {}, det F = {:.6g}", s + 1, jacobian);
@@ -402,8 +407,8 @@ std::string TriangleBlock<Element, sampling, Law>::describe_inversion(std::size_
     return fmt::format("s_v = {:.6g}", 1 + kinematics.volume_strain);
 }
 
-template <class Element, Sampling sampling, class Law>
-MunjizaConstants TriangleBlock<Element, sampling, Law>::tangent_constants(std::size_t local) const {
+template <class Element, class Law>
+MunjizaConstants TriangleBlock<Element, Law>::tangent_constants(std::size_t local) const {
     return law_.tangent_constants(memory_at_rest(local));
 }
 

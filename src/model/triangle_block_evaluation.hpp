@@ -10,10 +10,10 @@
 
 namespace gneiss {
 
-template <class Element, Sampling sampling, class Law>
-double TriangleBlock<Element, sampling, Law>::beyond_watch(const TriangleKinematics<Element, Pack>& kinematics,
-                                                           const TriangleStress<Element, Law, Pack>& stress,
-                                                           std::size_t pack) const {
+template <class Element, class Law>
+double TriangleBlock<Element, Law>::beyond_watch(const TriangleKinematics<Element, Pack>& kinematics,
+                                                 const TriangleStress<Element, Law, Pack>& stress,
+                                                 std::size_t pack) const {
     Pack largest(0.0);
     for (int s = 0; s < Element::n_sub; ++s)
         largest = xsimd::max(largest, watch_.index(cauchy_stress(kinematics.point[s], stress.point[s], stress.q)));
@@ -28,11 +28,10 @@ double TriangleBlock<Element, sampling, Law>::beyond_watch(const TriangleKinemat
 // ---- forces
 // ----------------------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 template <bool given>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_t first, std::size_t last,
-                                                                      const Evaluation& at,
-                                                                      const LocalNodes& nodal) const {
+std::ptrdiff_t TriangleBlock<Element, Law>::add_force_packs(std::size_t first, std::size_t last, const Evaluation& at,
+                                                            const LocalNodes& nodal) const {
     // A few packs go through each stage together: the chain of operations from a pack's displacements to its forces is
     // longer than the window in which the processor finds independent work.
     constexpr std::size_t depth = 4, ahead = 12;
@@ -48,7 +47,7 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
                  local_nodes_.size());
         for (std::size_t i = 0; i < n; ++i) {
             kinematics[i] =
-                triangle_kinematics<Element, sampling>(gather(nodal.u, index(begin + i)), geometry(begin + i));
+                triangle_kinematics<Element>(gather(nodal.u, index(begin + i)), geometry(begin + i), sampling_);
             const auto upright = is_upright(kinematics[i]);
             if (!every_lane(upright)) [[unlikely]]
                 return inverted_lane(begin + i, upright);
@@ -65,7 +64,7 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
             triangle_force(kinematics[i], g, stress[i], f);
             if (is_viscous) {
                 const auto rates =
-                    triangle_rates<Element, sampling>(gather(nodal.v, index(begin + i)), kinematics[i], g);
+                    triangle_rates<Element>(gather(nodal.v, index(begin + i)), kinematics[i], g, sampling_);
                 add_viscous_force<Element>(info_.viscosity, kinematics[i], rates, g, f);
             }
             if constexpr (Law::n_internal > 0) {
@@ -86,33 +85,33 @@ std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force_packs(std::size_
     return none;
 }
 
-template <class Element, Sampling sampling, class Law>
-std::ptrdiff_t TriangleBlock<Element, sampling, Law>::add_force(std::size_t first, std::size_t last,
-                                                                const Evaluation& at, const LocalNodes& local) const {
+template <class Element, class Law>
+std::ptrdiff_t TriangleBlock<Element, Law>::add_force(std::size_t first, std::size_t last, const Evaluation& at,
+                                                      const LocalNodes& local) const {
     if constexpr (TakesGivenStress<Law>)
         if (at.given) return add_force_packs<true>(first, last, at, local);
     return add_force_packs<false>(first, last, at, local);
 }
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 template <bool given>
-auto TriangleBlock<Element, sampling, Law>::response(const PackGeometry& g, const Nodal<Pack>& u,
-                                                     const Memory<Pack>& memory) const -> Response {
+auto TriangleBlock<Element, Law>::response(const PackGeometry& g, const Nodal<Pack>& u,
+                                           const Memory<Pack>& memory) const -> Response {
     Response response;
-    response.kinematics = triangle_kinematics<Element, sampling>(u, g);
+    response.kinematics = triangle_kinematics<Element>(u, g, sampling_);
     response.stress = triangle_stress<Element, given>(law_, response.kinematics, g, memory);
     return response;
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std::size_t last, const Evaluation& at,
-                                                          double* rate) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::internal_rate(std::size_t first, std::size_t last, const Evaluation& at,
+                                                double* rate) const {
     if constexpr (Law::n_internal > 0) {
         for (std::size_t pack = first; pack < last; ++pack) {
             const PackGeometry g = geometry(pack);
             const Memory<Pack> memory = load_memory(at, pack);
             const auto [kinematics, stress] = response<TakesGivenStress<Law>>(g, gather(at.u, pack), memory);
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            const auto rates = triangle_rates<Element>(gather(at.v, pack), kinematics, g, sampling_);
             for (std::size_t s = 0; s < Element::n_sub; ++s) {
                 const auto z_rate =
                     law_.rate(kinematics.point[s], stress.volume, rates[s], stress.point[s], stress.q, memory[s]);
@@ -123,9 +122,9 @@ void TriangleBlock<Element, sampling, Law>::internal_rate(std::size_t first, std
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, const Evaluation& at, double* cauchy,
-                                                          double* force) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::pack_response(std::size_t pack, const Evaluation& at, double* cauchy,
+                                                double* force) const {
     const PackGeometry g = geometry(pack);
     const auto [kinematics, stress] = response<false>(g, gather(at.u, pack), load_memory(at, pack));
     for (int s = 0; s < Element::n_sub; ++s, cauchy += 3 * pack_width) {
@@ -137,7 +136,7 @@ void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, cons
     Nodal<Pack> f;
     triangle_force(kinematics, g, stress, f);
     if (viscous()) {
-        const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+        const auto rates = triangle_rates<Element>(gather(at.v, pack), kinematics, g, sampling_);
         add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
     }
     for (int node = 0; node < Element::n_nodes; ++node, force += 2 * pack_width) {
@@ -149,31 +148,28 @@ void TriangleBlock<Element, sampling, Law>::pack_response(std::size_t pack, cons
 // ---- tangents
 // ---------------------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 template <bool given>
-auto TriangleBlock<Element, sampling, Law>::law_tangent(const PackGeometry& g, const Nodal<Pack>& u,
-                                                        const Memory<Pack>& memory, double factor) const
-    -> ElementMatrix<Element, Pack> {
+auto TriangleBlock<Element, Law>::law_tangent(const PackGeometry& g, const Nodal<Pack>& u, const Memory<Pack>& memory,
+                                              double factor) const -> ElementMatrix<Element, Pack> {
     ElementMatrix<Element, Pack> matrix;
     for (auto& row : matrix) row.fill(Pack(0.0));
-    add_law_tangent<Element, sampling, given>(law_, triangle_kinematics<Element, sampling>(u, g), g, memory, factor,
-                                              matrix);
+    add_law_tangent<Element, given>(law_, triangle_kinematics<Element>(u, g, sampling_), g, memory, factor, sampling_,
+                                    matrix);
     return matrix;
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::add_viscosity(const PackGeometry& g, const Nodal<Pack>& u,
-                                                          const Nodal<Pack>& v, double c_u, double c_v,
-                                                          ElementMatrix<Element, Pack>& matrix) const {
-    const auto kinematics = triangle_kinematics<Element, sampling>(u, g);
-    const auto rates = triangle_rates<Element, sampling>(v, kinematics, g);
-    add_viscous_tangent<Element, sampling>(info_.viscosity, kinematics, rates, g, c_u, c_v, matrix);
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::add_viscosity(const PackGeometry& g, const Nodal<Pack>& u, const Nodal<Pack>& v,
+                                                double c_u, double c_v, ElementMatrix<Element, Pack>& matrix) const {
+    const auto kinematics = triangle_kinematics<Element>(u, g, sampling_);
+    const auto rates = triangle_rates<Element>(v, kinematics, g, sampling_);
+    add_viscous_tangent<Element>(info_.viscosity, kinematics, rates, g, c_u, c_v, sampling_, matrix);
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::size_t last, const Evaluation& at,
-                                                        double c_u, double c_v, const MatrixPlaces& places,
-                                                        double* values) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::add_tangent(std::size_t first, std::size_t last, const Evaluation& at, double c_u,
+                                              double c_v, const MatrixPlaces& places, double* values) const {
     constexpr std::size_t n_pairs = Element::n_nodes * Element::n_nodes;
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
@@ -206,9 +202,9 @@ void TriangleBlock<Element, sampling, Law>::add_tangent(std::size_t first, std::
     }
 }
 
-template <class Element, Sampling sampling, class Law>
-void TriangleBlock<Element, sampling, Law>::add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
-                                                         const LocalNodes& local) const {
+template <class Element, class Law>
+void TriangleBlock<Element, Law>::add_row_sums(std::size_t first, std::size_t last, const Evaluation& at,
+                                               const LocalNodes& local) const {
     for (std::size_t pack = first; pack < last; ++pack) {
         const auto* index = local_nodes_.data() + pack * index_stride;
         const PackGeometry g = geometry(pack);
@@ -225,14 +221,13 @@ void TriangleBlock<Element, sampling, Law>::add_row_sums(std::size_t first, std:
 // ---- energies and bounds
 // -----------------------------------------------------------------------------------------------
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const
-    -> Sums {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::energies(std::size_t first, std::size_t last, const Evaluation& at) const -> Sums {
     Pack stored(0.0), stress_power(0.0), viscous_power(0.0);
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);
         if constexpr (Law::has_stored_energy) {
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
+            const auto kinematics = triangle_kinematics<Element>(gather(at.u, pack), g, sampling_);
             const auto volume = law_.volume(kinematics.volume_strain);
             for (int s = 0; s < Element::n_sub; ++s)
                 stored += g.of(s).volume * law_.energy_density(kinematics.point[s], volume);
@@ -241,8 +236,8 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
             for (int s = 0; s < Element::n_sub; ++s) stress_power += g.of(s).volume * memory[s].z[Law::n_internal - 1];
         }
         if (viscous() && at.v != nullptr) {
-            const auto kinematics = triangle_kinematics<Element, sampling>(gather(at.u, pack), g);
-            const auto rates = triangle_rates<Element, sampling>(gather(at.v, pack), kinematics, g);
+            const auto kinematics = triangle_kinematics<Element>(gather(at.u, pack), g, sampling_);
+            const auto rates = triangle_rates<Element>(gather(at.v, pack), kinematics, g, sampling_);
             Nodal<Pack> f{};
             viscous_power += add_viscous_force<Element>(info_.viscosity, kinematics, rates, g, f);
         }
@@ -250,9 +245,9 @@ auto TriangleBlock<Element, sampling, Law>::energies(std::size_t first, std::siz
     return {sum_of_lanes(stored), sum_of_lanes(stress_power), sum_of_lanes(viscous_power)};
 }
 
-template <class Element, Sampling sampling, class Law>
-Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeometry& g,
-                                                                const ElementMatrix<Element, Pack>& tangent) const {
+template <class Element, class Law>
+Pack TriangleBlock<Element, Law>::mass_weighted_bound(const PackGeometry& g,
+                                                      const ElementMatrix<Element, Pack>& tangent) const {
     std::array<Pack, Element::n_nodes> mass;
     mass.fill(Pack(0.0));
     for (int s = 0; s < Element::n_sub; ++s)
@@ -266,9 +261,9 @@ Pack TriangleBlock<Element, sampling, Law>::mass_weighted_bound(const PackGeomet
     return largest_eigenvalue_bound<n_dof>(a);
 }
 
-template <class Element, Sampling sampling, class Law>
-auto TriangleBlock<Element, sampling, Law>::largest_rates(std::size_t first, std::size_t last,
-                                                          const Evaluation& at) const -> Rates {
+template <class Element, class Law>
+auto TriangleBlock<Element, Law>::largest_rates(std::size_t first, std::size_t last, const Evaluation& at) const
+    -> Rates {
     Pack omega_squared(0.0), damping(0.0);
     for (std::size_t pack = first; pack < last; ++pack) {
         const PackGeometry g = geometry(pack);

@@ -61,7 +61,7 @@ double counted_flops() {
     const std::array<Vec2<Counted>, Element::n_nodes> u{};
     std::array<Vec2<Counted>, Element::n_nodes> f{};
     Counted::operations = 0;
-    const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
+    const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
     const auto stress = triangle_stress<Element, false>(law, kinematics, geometry,
                                                         std::array<PointMemory<Counted, 0, 0>, Element::n_sub>{});
     triangle_force<Element, MunjizaHyperelastic<false>>(kinematics, geometry, stress, f);

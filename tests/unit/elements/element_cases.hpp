@@ -75,10 +75,10 @@ template <class Element, class Law, class V>
 using ElementMemory = std::array<typename Law::template Memory<V>, Element::n_sub>;
 
 /// Forces, N, of one element.
-template <class Element, Sampling sampling, class T, class V, class Law>
+template <class Element, class T, class V, class Law>
 Nodal<Element, T> forces(const Law& law, const Nodal<Element, T>& u, const TriangleGeometry<Element, V>& geometry,
-                         const ElementMemory<Element, Law, V>& memory) {
-    const auto kinematics = triangle_kinematics<Element, sampling>(u, geometry);
+                         const ElementMemory<Element, Law, V>& memory, Sampling sampling) {
+    const auto kinematics = triangle_kinematics<Element>(u, geometry, sampling);
     const auto stress = triangle_stress<Element, false>(law, kinematics, geometry, memory);
     Nodal<Element, T> f;
     triangle_force(kinematics, geometry, stress, f);
@@ -86,20 +86,21 @@ Nodal<Element, T> forces(const Law& law, const Nodal<Element, T>& u, const Trian
 }
 
 /// The memory after the element has been led to u.
-template <class Element, Sampling sampling, class Law, class V>
+template <class Element, class Law, class V>
 ElementMemory<Element, Law, V> led_to(const Law& law, const Nodal<Element, V>& u,
                                       const TriangleGeometry<Element, V>& geometry,
-                                      const ElementMemory<Element, Law, V>& memory) {
-    const auto kinematics = triangle_kinematics<Element, sampling>(u, geometry);
+                                      const ElementMemory<Element, Law, V>& memory, Sampling sampling) {
+    const auto kinematics = triangle_kinematics<Element>(u, geometry, sampling);
     const auto stress = triangle_stress<Element, false>(law, kinematics, geometry, memory);
     ElementMemory<Element, Law, V> updated;
     for (std::size_t s = 0; s < updated.size(); ++s)
         updated[s] = law.update(kinematics.point[s], stress.volume, stress.point[s], stress.q, memory[s]);
     return updated;
 }
-template <class Element, Sampling sampling, class Law>
-ElementMemory<Element, Law, double> element_at_rest(const Law& law, const TriangleGeometry<Element, double>& geometry) {
-    return led_to<Element, sampling>(law, Nodal<Element, double>{}, geometry, ElementMemory<Element, Law, double>{});
+template <class Element, class Law>
+ElementMemory<Element, Law, double> element_at_rest(const Law& law, const TriangleGeometry<Element, double>& geometry,
+                                                    Sampling sampling) {
+    return led_to<Element>(law, Nodal<Element, double>{}, geometry, ElementMemory<Element, Law, double>{}, sampling);
 }
 
 template <class Element>
@@ -115,10 +116,10 @@ double largest(const Nodal<Element, double>& f) {
 }
 
 /// -df/du, N/m, shape (2 n_nodes, 2 n_nodes).
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 Eigen::MatrixXd stiffness(const Law& law, const Nodal<Element, double>& u,
                           const TriangleGeometry<Element, double>& geometry,
-                          const ElementMemory<Element, Law, double>& memory) {
+                          const ElementMemory<Element, Law, double>& memory, Sampling sampling) {
     constexpr int n = 2 * Element::n_nodes;
     using D = Dual<n>;
     Nodal<Element, D> variable;
@@ -126,7 +127,7 @@ Eigen::MatrixXd stiffness(const Law& law, const Nodal<Element, double>& u,
         const auto at = static_cast<std::size_t>(node);
         variable[at] = {D::variable(u[at].x, 2 * node), D::variable(u[at].y, 2 * node + 1)};
     }
-    const Nodal<Element, D> f = forces<Element, sampling>(law, variable, geometry, memory);
+    const Nodal<Element, D> f = forces<Element>(law, variable, geometry, memory, sampling);
     Eigen::MatrixXd k(n, n);
     for (int i = 0; i < n; ++i) {
         const auto& force = f[static_cast<std::size_t>(i / 2)];

@@ -90,7 +90,7 @@ TYPED_TEST(ElementContract, AffineDisplacement_OnAnyAxes_GivesItsGradientInEvery
     for (const double angle : axis_angles_under_test) {
         const auto geometry = geometry_of<Element>(x, angle);
         for (const Tensor<double>& h : finite_deformations()) {
-            const auto kinematics = triangle_kinematics<Element, Sampling::mean>(affine<Element>(x, h), geometry);
+            const auto kinematics = triangle_kinematics<Element>(affine<Element>(x, h), geometry, Sampling::mean);
             const auto expected = point_at(h, angle);
             for (const auto& point : kinematics.point) {
                 EXPECT_NEAR(point.h_alpha.x, expected.h_alpha.x, 50 * eps);
@@ -113,7 +113,7 @@ TYPED_TEST(ElementContract, VolumetricStretch_OfAnyDisplacement_IsTheRatioOfArea
         const auto u = noisy<Element>(x, h, random);
         auto moved = x;
         for (std::size_t n = 0; n < x.size(); ++n) moved[n] += u[n];
-        const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
+        const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
         EXPECT_NEAR(1 + kinematics.volume_strain, enclosed_area<Element>(moved) / enclosed_area<Element>(x), 50 * eps);
     }
 }
@@ -127,11 +127,11 @@ TYPED_TEST(ElementContract, FiniteRigidMotion_AnyLaw_HasNoForce) {
     const auto geometry = geometry_of<Element>(x, axis);
     for_each_law([&]<class Case>() {
         const auto law = Case::law();
-        const auto memory = element_at_rest<Element, Sampling::mean>(law, geometry);
+        const auto memory = element_at_rest<Element>(law, geometry, Sampling::mean);
         for (const double angle : {1e-9, 0.3, std::numbers::pi / 2, std::numbers::pi, -2.5, 40.0}) {
             auto u = affine<Element>(x, rigid_rotation(angle));
             for (Vec2<double>& value : u) value += Vec2<double>{1.5, -0.7};
-            const auto f = forces<Element, Sampling::mean>(law, u, geometry, memory);
+            const auto f = forces<Element>(law, u, geometry, memory, Sampling::mean);
             EXPECT_LE(largest<Element>(f), round_off) << testing::internal::GetTypeName<Case>() << ", angle " << angle;
         }
     });
@@ -143,9 +143,9 @@ TYPED_TEST(ElementContract, ConstantStrain_AnyLaw_GivesTheTractionsOnItsSides) {
     const auto geometry = geometry_of<Element>(x, axis);
     for_each_law([&]<class Case>() {
         const auto law = Case::law();
-        const auto memory = element_at_rest<Element, Sampling::mean>(law, geometry);
+        const auto memory = element_at_rest<Element>(law, geometry, Sampling::mean);
         for (const Tensor<double>& h : finite_deformations()) {
-            const auto f = forces<Element, Sampling::mean>(law, affine<Element>(x, h), geometry, memory);
+            const auto f = forces<Element>(law, affine<Element>(x, h), geometry, memory, Sampling::mean);
             const auto p = first_piola(law, h, axis, memory[0]);
             // each side, from node to node around the boundary, hands half of its resultant P N h to both ends
             Nodal<Element, double> resultant{};
@@ -172,11 +172,11 @@ TYPED_TEST(ElementContract, Forces_OfAnyState_AreInBalance) {
     const auto geometry = geometry_of<Element>(x, axis);
     for_each_law([&]<class Case>() {
         const auto law = Case::law();
-        const auto memory = element_at_rest<Element, Sampling::mean>(law, geometry);
+        const auto memory = element_at_rest<Element>(law, geometry, Sampling::mean);
         std::mt19937 random(5);
         for (const Tensor<double>& h : finite_deformations()) {
             const auto u = noisy<Element>(x, h, random);
-            const auto f = forces<Element, Sampling::mean>(law, u, geometry, memory);
+            const auto f = forces<Element>(law, u, geometry, memory, Sampling::mean);
             Vec2<double> sum{0, 0};
             double moment = 0;
             for (std::size_t n = 0; n < x.size(); ++n) {
@@ -193,7 +193,7 @@ TYPED_TEST(ElementContract, Forces_OfAnyState_AreInBalance) {
 template <class Element, class Law>
 double stored_energy(const Law& law, const Nodal<Element, double>& u,
                      const TriangleGeometry<Element, double>& geometry) {
-    const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
+    const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
     const auto volume = law.volume(kinematics.volume_strain);
     double energy = 0;
     for (std::size_t s = 0; s < Element::n_sub; ++s)
@@ -211,7 +211,7 @@ TYPED_TEST(ElementContract, Forces_OfLawsWithStoredEnergy_AreItsNegativeGradient
             std::mt19937 random(6);
             for (const Tensor<double>& h : finite_deformations()) {
                 const auto u = noisy<Element>(x, h, random);
-                const auto f = forces<Element, Sampling::mean>(law, u, geometry, {});
+                const auto f = forces<Element>(law, u, geometry, {}, Sampling::mean);
                 for (std::size_t n = 0; n < x.size(); ++n) {
                     for (const bool along_y : {false, true}) {
                         const auto energy = [&](double step) {
@@ -236,10 +236,10 @@ TYPED_TEST(ElementContract, Tangent_OfConservativeLaws_IsSymmetric_AndThatOfFini
     const auto geometry = geometry_of<Element>(x, axis);
     for_each_law([&]<class Case>() {
         const auto law = Case::law();
-        const auto memory = element_at_rest<Element, Sampling::mean>(law, geometry);
+        const auto memory = element_at_rest<Element>(law, geometry, Sampling::mean);
         std::mt19937 random(7);
         const auto u = noisy<Element>(x, finite_deformations()[3], random);
-        const Eigen::MatrixXd k = stiffness<Element, Sampling::mean>(law, u, geometry, memory);
+        const Eigen::MatrixXd k = stiffness<Element>(law, u, geometry, memory, Sampling::mean);
         if (Case::cycle == Cycle::free) {
             // stiffnesses are a few times the modulus: sides over heights
             EXPECT_LE((k - k.transpose()).cwiseAbs().maxCoeff(), 5 * round_off)
@@ -250,7 +250,7 @@ TYPED_TEST(ElementContract, Tangent_OfConservativeLaws_IsSymmetric_AndThatOfFini
                 auto moved = u;
                 (j % 2 == 0 ? moved[static_cast<std::size_t>(j / 2)].x : moved[static_cast<std::size_t>(j / 2)].y) +=
                     step;
-                const auto f = forces<Element, Sampling::mean>(law, moved, geometry, memory);
+                const auto f = forces<Element>(law, moved, geometry, memory, Sampling::mean);
                 return Eigen::Map<const Eigen::VectorXd>(&f[0].x, k.rows());
             };
             const Eigen::VectorXd column = derivative_at_zero(force, difference_step / 10);
@@ -297,18 +297,19 @@ TYPED_TEST(ElementContract, Packs_LaneByLane_AgreeWithScalars) {
                 geometry[lane] = geometry_of<Element>(shape, axis + static_cast<double>(lane));
                 u[lane] = noisy<Element>(shape, scaled(size, finite_deformations()[lane % 3]), random, 0.03 * size);
                 const auto before = noisy<Element>(shape, scaled(size, finite_deformations()[1]), random, 0.01 * size);
-                memory[lane] = led_to<Element, Sampling::mean>(
-                    law, before, geometry[lane], element_at_rest<Element, Sampling::mean>(law, geometry[lane]));
-                f[lane] = forces<Element, Sampling::mean>(law, u[lane], geometry[lane], memory[lane]);
-                after[lane] = led_to<Element, Sampling::mean>(law, u[lane], geometry[lane], memory[lane]);
+                memory[lane] =
+                    led_to<Element>(law, before, geometry[lane],
+                                    element_at_rest<Element>(law, geometry[lane], Sampling::mean), Sampling::mean);
+                f[lane] = forces<Element>(law, u[lane], geometry[lane], memory[lane], Sampling::mean);
+                after[lane] = led_to<Element>(law, u[lane], geometry[lane], memory[lane], Sampling::mean);
             }
             const auto pack_geometry = interleaved<TriangleGeometry<Element, Pack>>(geometry);
             const auto pack_u = interleaved<Nodal<Element, Pack>>(u);
             ElementMemory<Element, Law, Pack> pack_memory{};
             if constexpr (Law::n_internal + Law::n_history > 0)
                 pack_memory = interleaved<ElementMemory<Element, Law, Pack>>(memory);
-            const auto pack_f = forces<Element, Sampling::mean>(law, pack_u, pack_geometry, pack_memory);
-            const auto pack_after = led_to<Element, Sampling::mean>(law, pack_u, pack_geometry, pack_memory);
+            const auto pack_f = forces<Element>(law, pack_u, pack_geometry, pack_memory, Sampling::mean);
+            const auto pack_after = led_to<Element>(law, pack_u, pack_geometry, pack_memory, Sampling::mean);
             for (std::size_t lane = 0; lane < pack_width; ++lane) {
                 for (std::size_t n = 0; n < f[lane].size(); ++n) {
                     EXPECT_NEAR(lanes(pack_f[n].x)[lane], f[lane][n].x, round_off * size);
@@ -336,9 +337,9 @@ TYPED_TEST(ElementContract, Rates_OfAnyMotion_AreDerivativesInTime) {
         const auto at = [&](double t) {
             auto moved = u;
             for (std::size_t n = 0; n < x.size(); ++n) moved[n] += t * v[n];
-            return triangle_kinematics<Element, Sampling::mean>(moved, geometry);
+            return triangle_kinematics<Element>(moved, geometry, Sampling::mean);
         };
-        const auto rates = triangle_rates<Element, Sampling::mean>(v, at(0), geometry);
+        const auto rates = triangle_rates<Element>(v, at(0), geometry, Sampling::mean);
         constexpr double error = 1e-11;  // polynomials of degree 2 in t, and a logarithm: round-off of the difference
         for (std::size_t s = 0; s < rates.size(); ++s) {
             EXPECT_NEAR(rates[s].alpha.x, derivative_at_zero([&](double t) { return at(t).point[s].h_alpha.x; }),
@@ -363,8 +364,8 @@ TYPED_TEST(ElementContract, ViscousForces_OnRigidMotion_Vanish) {
         const auto u = noisy<Element>(x, h, random);
         Nodal<Element, double> v, f{};
         for (std::size_t n = 0; n < x.size(); ++n) v[n] = 3.0 * turned(x[n] + u[n]) + Vec2<double>{0.4, -2};
-        const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
-        const auto rates = triangle_rates<Element, Sampling::mean>(v, kinematics, geometry);
+        const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
+        const auto rates = triangle_rates<Element>(v, kinematics, geometry, Sampling::mean);
         const double power = add_viscous_force<Element>(viscosity, kinematics, rates, geometry, f);
         EXPECT_LE(largest<Element>(f), 500 * eps);
         EXPECT_LE(std::abs(power), 500 * eps);
@@ -381,8 +382,8 @@ TYPED_TEST(ElementContract, ViscousForces_OnAnyMotion_DissipateWhatTheyReport) {
             const auto u = noisy<Element>(x, h, random);
             const auto v = noisy<Element>(x, {0.5, -0.9, 0.7, 0.3}, random, 0.5);
             Nodal<Element, double> f{};
-            const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
-            const auto rates = triangle_rates<Element, Sampling::mean>(v, kinematics, geometry);
+            const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
+            const auto rates = triangle_rates<Element>(v, kinematics, geometry, Sampling::mean);
             const double power = add_viscous_force<Element>(viscosity, kinematics, rates, geometry, f);
             double work = 0, on_points = 0;
             for (std::size_t n = 0; n < x.size(); ++n) work -= dot(f[n], v[n]);
@@ -412,8 +413,8 @@ TYPED_TEST(ElementContract, ViscousForces_OfADual_HaveThemselvesAsDerivative) {
         scaled_v[n] = {v[n].x * one, v[n].y * one};
         f[n] = {D(0.0), D(0.0)};
     }
-    const auto kinematics = triangle_kinematics<Element, Sampling::mean>(u, geometry);
-    const auto rates = triangle_rates<Element, Sampling::mean>(scaled_v, kinematics, geometry);
+    const auto kinematics = triangle_kinematics<Element>(u, geometry, Sampling::mean);
+    const auto rates = triangle_rates<Element>(scaled_v, kinematics, geometry, Sampling::mean);
     add_viscous_force<Element>(viscosity, kinematics, rates, geometry, f);
     for (const auto& force : f) {
         EXPECT_NEAR(force.x.derivative[0], force.x.value, 500 * eps);
@@ -429,7 +430,7 @@ TYPED_TEST(ElementContract, IsUpright_UntilOneSubTriangleIsTurnedInsideOut) {
     const auto x = TypeParam::distorted();
     const auto geometry = geometry_of<Element>(x, axis);
     const auto upright = [&](const Nodal<Element, double>& u) {
-        return is_upright(triangle_kinematics<Element, Sampling::mean>(u, geometry));
+        return is_upright(triangle_kinematics<Element>(u, geometry, Sampling::mean));
     };
     EXPECT_TRUE(upright({}));
     EXPECT_TRUE(upright(affine<Element>(x, rigid_rotation(2.0))));
@@ -450,7 +451,7 @@ TYPED_TEST(ElementContract, IsUpright_NotWhereANodeIsNotANumber) {
     for (std::size_t n = 0; n < Element::n_nodes; ++n) {
         Nodal<Element, double> u{};
         u[n].y = std::numeric_limits<double>::quiet_NaN();
-        EXPECT_FALSE(is_upright(triangle_kinematics<Element, Sampling::mean>(u, geometry))) << "node " << n;
+        EXPECT_FALSE(is_upright(triangle_kinematics<Element>(u, geometry, Sampling::mean))) << "node " << n;
         Nodal<Element, Pack> packs;
         for (auto& value : packs) value = {Pack(0.0), Pack(0.0)};
         packs[n].x = pack_of(
@@ -458,7 +459,7 @@ TYPED_TEST(ElementContract, IsUpright_NotWhereANodeIsNotANumber) {
         std::array<TriangleGeometry<Element, double>, pack_width> same;
         same.fill(geometry);
         const auto pack_geometry = interleaved<TriangleGeometry<Element, Pack>>(same);
-        const auto upright = is_upright(triangle_kinematics<Element, Sampling::mean>(packs, pack_geometry));
+        const auto upright = is_upright(triangle_kinematics<Element>(packs, pack_geometry, Sampling::mean));
         EXPECT_FALSE(every_lane(upright)) << "node " << n;
         EXPECT_TRUE(pack_width == 1 || any_lane(upright)) << "the other lanes are sound";
     }

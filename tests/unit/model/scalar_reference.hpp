@@ -29,12 +29,12 @@ public:
     virtual std::vector<double> internal() const = 0;
 };
 
-template <class Element, Sampling sampling, class Law>
+template <class Element, class Law>
 class ScalarTriangle final : public ScalarElement {
 public:
     ScalarTriangle(const Mesh& mesh, std::size_t e, double angle, double thickness, const ViscousStress& viscosity,
-                   Law law)
-        : nodes_(mesh.element(e)), viscosity_(viscosity), law_(law) {
+                   Law law, Sampling sampling)
+        : nodes_(mesh.element(e)), viscosity_(viscosity), law_(law), sampling_(sampling) {
         std::array<Vec2<double>, Element::n_nodes> x;
         for (int i = 0; i < Element::n_nodes; ++i) {
             const auto& at = mesh.nodes[static_cast<std::size_t>(nodes_[i])];
@@ -97,15 +97,16 @@ private:
         return own;
     }
     TriangleKinematics<Element, double> kinematics_at(const std::vector<double>& u) const {
-        return triangle_kinematics<Element, sampling>(pairs(u), geometry_);
+        return triangle_kinematics<Element>(pairs(u), geometry_, sampling_);
     }
     auto rates(const TriangleKinematics<Element, double>& kinematics, const std::vector<double>& v) const {
-        return triangle_rates<Element, sampling>(pairs(v), kinematics, geometry_);
+        return triangle_rates<Element>(pairs(v), kinematics, geometry_, sampling_);
     }
 
     const std::int32_t* nodes_;
     ViscousStress viscosity_;
     Law law_;
+    Sampling sampling_;
     TriangleGeometry<Element, double> geometry_;
     std::array<typename Law::template Memory<double>, Element::n_sub> memory_;
 };
@@ -114,13 +115,11 @@ template <class Law>
 std::unique_ptr<ScalarElement> scalar_triangle(const Mesh& mesh, std::size_t e, double angle, const SolidOptions& solid,
                                                const ViscousStress& viscosity, Law law) {
     if (mesh.kind == ElementKind::cst)
-        return std::make_unique<ScalarTriangle<Cst, Sampling::mean, Law>>(mesh, e, angle, solid.thickness, viscosity,
-                                                                          law);
-    if (solid.volumetric == Volumetric::centre)
-        return std::make_unique<ScalarTriangle<CompositeTriangle, Sampling::centre, Law>>(
-            mesh, e, angle, solid.thickness, viscosity, law);
-    return std::make_unique<ScalarTriangle<CompositeTriangle, Sampling::mean, Law>>(mesh, e, angle, solid.thickness,
-                                                                                    viscosity, law);
+        return std::make_unique<ScalarTriangle<Cst, Law>>(mesh, e, angle, solid.thickness, viscosity, law,
+                                                          Sampling::mean);
+    const bool centre = solid.volumetric == Volumetric::centre;
+    return std::make_unique<ScalarTriangle<CompositeTriangle, Law>>(mesh, e, angle, solid.thickness, viscosity, law,
+                                                                    centre ? Sampling::centre : Sampling::mean);
 }
 
 /// One element of a material as its options describe it.
