@@ -88,7 +88,7 @@ function(gneiss_library name)
   target_link_libraries(gneiss_${name} PUBLIC gneiss::options PRIVATE fmt::fmt)  # what puts messages together
   if(arg_BRIEF)
     target_compile_options(gneiss_${name} PRIVATE -O1)
-    gneiss_precompiled(gneiss_${name} gneiss_deck ${gneiss_headers})
+    gneiss_precompiled(gneiss_${name} gneiss_report ${gneiss_headers})
   else()
     gneiss_precompiled(gneiss_${name} gneiss_base ${gneiss_headers})
   endif()
