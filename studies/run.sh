@@ -3,7 +3,7 @@
 #
 # usage: studies/run.sh NAME [--quick] [--jobs N]
 #   NAME       a folder of studies/ with a Snakefile: blast, borehole, fracture, integrators, locking
-#   --quick    coarse meshes, about a minute: what CI runs
+#   --quick    coarse meshes, one to four minutes: what CI runs
 #   --jobs N   cores to use (default: number of cores)
 #
 # Results: results/NAME/summary.json, results/NAME/figures/*.png, the runs in results/NAME/cases/, their logs in
